@@ -70,9 +70,9 @@ void DeviceCycles::renew() {
         frames_ = std::move(frames);
         useDevice();
         ++renewals_;
-    } catch (const DeviceFailed&) {
+    } catch (const OutOfMemory&) {
         throw;
-    } catch (const Error& e) { // a restarting driver may report any error
+    } catch (const Error& e) { // a restarting driver may report any error, or be missing for a while
         throw DeviceLost(e.what());
     }
 }

@@ -34,7 +34,7 @@ public:
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;
 
-    // Throws BadInput, Error, DeviceLost.
+    // Throws BadInput, Error, DeviceFailed.
     DeviceCycles(const Parts& parts, const MakePlan& makePlan);
 
     const Plan& plan() const { return plan_; }

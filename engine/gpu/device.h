@@ -36,7 +36,8 @@ enum class Drawing {
 class Device {
 public:
     // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name.
-    // Throws BadInput that lists all devices, with the reasons for rejected ones.
+    // Throws BadInput, or DeviceMissing if no device would do, that lists all devices, with the reasons for
+    // rejected ones.
     Device(const Instance& instance, const std::string& selector = {}, Drawing drawing = Drawing::None);
     ~Device();
     Device(const Device&) = delete;

@@ -45,9 +45,9 @@ bool layerPresent() {
 
 // Throws when the loader found no driver or could not load any.
 [[noreturn]] void refuseDrivers() {
-    throw BadInput(
-        "device", "Vulkan driver", "none is installed",
-        "a Vulkan 1.2 driver: install your GPU's, or mesa-vulkan-drivers, which also runs on the CPU");
+    throw DeviceMissing(
+        "device: Vulkan driver: none is installed (allowed: a Vulkan 1.2 driver: install your GPU's, or "
+        "mesa-vulkan-drivers, which also runs on the CPU)");
 }
 
 // Sanitized builds keep drivers loaded until the program ends; otherwise leak reports lack their symbols.

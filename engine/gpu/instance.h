@@ -18,8 +18,8 @@ struct Validation {
 // Used by the thread that builds the engine.
 class Instance {
 public:
-    // extensions: instance extensions that a window's toolkit needs, else none. Throws Error without a
-    // Vulkan 1.2 loader or when the requested layer or an extension is missing.
+    // extensions: instance extensions that a window's toolkit needs, else none. Throws DeviceMissing without
+    // a driver, Error without a Vulkan 1.2 loader or when the requested layer or an extension is missing.
     explicit Instance(Validation validation = {}, std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;

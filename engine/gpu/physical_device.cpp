@@ -176,7 +176,11 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
         }
     }
     if (best == VK_NULL_HANDLE) {
-        throw BadInput("device", "name or index", "'" + selector + "'", describeAll(devices));
+        const BadInput refused("device", "name or index", "'" + selector + "'", describeAll(devices));
+        if (selector.empty() || devices.empty()) {
+            throw DeviceMissing(refused.what());
+        }
+        throw refused;
     }
     return best;
 }

@@ -19,7 +19,7 @@ std::optional<uint32_t> computeFamily(VkPhysicalDevice device);
 // Empty when the device is usable; otherwise the reason why not.
 std::string refusal(VkPhysicalDevice device);
 
-// See Device's constructor. Throws BadInput.
+// See Device's constructor. Throws BadInput, DeviceMissing.
 VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& selector);
 
 // Whether the device offers the extension of that name.

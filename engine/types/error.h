@@ -43,6 +43,13 @@ public:
     using DeviceFailed::DeviceFailed;
 };
 
+// No device that could be used is installed. The user has to change that, as after BadInput.
+class DeviceMissing : public DeviceFailed {
+public:
+    using DeviceFailed::DeviceFailed;
+    int exitCode() const noexcept override { return 2; }
+};
+
 // A GPU, camera or haptic device is lost.
 class DeviceLost : public DeviceFailed {
 public:

@@ -2,6 +2,7 @@
 """Threads: frames of a camera thread, forces of a haptic thread."""
 
 import gc
+import os
 import subprocess
 import sys
 import tempfile
@@ -84,6 +85,24 @@ class Live(unittest.TestCase):
         self.assertIn("Engine.failure says why", fathom.SubmitStatus.__doc__)
         self.assertNotIn("failure()", fathom.SubmitStatus.__doc__)
         self.assertIsInstance(fathom.Engine.failure, property)
+
+    def test_a_missing_driver_is_a_missing_compute_device_and_no_bad_input(self):
+        script = textwrap.dedent("""
+            import sys
+            sys.path.insert(0, "tests/python")
+            import fathom, wall
+            for start in (fathom.Engine, fathom.Lockstep):
+                try:
+                    start(fathom.Scene.from_text(wall.SCENE), wall.camera())
+                except fathom.ComputeDeviceLost as missing:
+                    print(isinstance(missing, ValueError), missing)
+        """)
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False,
+                              env={**os.environ, "VK_DRIVER_FILES": "/nonexistent/driver.json"})
+        lines = done.stdout.splitlines()
+        self.assertEqual(len(lines), 2, done.stderr)
+        for line in lines:
+            self.assertRegex(line, "^False device: Vulkan driver: none is installed .*mesa-vulkan-drivers")
 
     def test_ports_outlive_their_engine(self):
         made = engine()
