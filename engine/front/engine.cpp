@@ -8,6 +8,7 @@
 #include "engine/run/contact_loop.h"
 #include "engine/run/cycle_answers.h"
 #include "engine/run/frame_loop.h"
+#include "engine/types/blocked_signals.h"
 #include "engine/types/frame.h"
 #include "engine/types/log.h"
 
@@ -141,6 +142,7 @@ struct Engine::Impl {
         , frames(feed, shared->channels, shared->clock, kLockstepFramePeriod, nullptr)
         , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr)
         , clearance(answers, shared->channels, shared->clock) {
+        const BlockedSignals quiet;
         try {
             threads.emplace_back([this] { guarded([this] { frames.run(stop); }); });
             if (compute.cycles.plan().query != Plan::Query::None) {

@@ -4,6 +4,7 @@
 #include "engine/gpu/physical_device.h"
 #include "engine/gpu/query_crossover.h"
 #include "engine/gpu/result.h"
+#include "engine/types/blocked_signals.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -90,6 +91,7 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
     const std::vector<const char*> extensions = extensionsFor(drawing);
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
+    const BlockedSignals quiet; // for threads of the driver
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
     if (facts_.hostPointerAlignment > 0) {
         hostPointerProperties_ = reinterpret_cast<PFN_vkGetMemoryHostPointerPropertiesEXT>(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/realtime_run.h"
 
+#include "engine/types/blocked_signals.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -21,13 +22,16 @@ uint64_t tickCapacity(double period) {
     return static_cast<uint64_t>(std::max(1024.0, std::ceil(kWriterBacklog / period)));
 }
 
-// Sets the flag and joins the thread at the end of the scope, also on exceptions.
+// Sets the flag and joins the thread at the end of the scope, also on exceptions. Other threads take the
+// program's signals.
 class StoppedThread {
 public:
     template <class Body>
     StoppedThread(std::atomic<bool>& stop, Body&& body)
-        : stop_(stop)
-        , thread_(std::forward<Body>(body)) {}
+        : stop_(stop) {
+        const BlockedSignals quiet;
+        thread_ = std::thread(std::forward<Body>(body));
+    }
     StoppedThread(const StoppedThread&) = delete;
     StoppedThread& operator=(const StoppedThread&) = delete;
     ~StoppedThread() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/thread_pool.h"
 
+#include "engine/types/blocked_signals.h"
 #include "engine/types/clock.h"
 
 namespace fathom {
@@ -26,6 +27,7 @@ uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
 ThreadPool::ThreadPool(uint32_t workers, std::chrono::microseconds spinTime)
     : spinTime_(spinTime) {
     threads_.reserve(workers - 1);
+    const BlockedSignals quiet;
     try {
         for (uint32_t i = 1; i < workers; ++i) {
             threads_.emplace_back([this] { runWorker(); });

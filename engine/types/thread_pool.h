@@ -12,8 +12,8 @@
 namespace fathom {
 
 // For jobs of tens of microseconds and more on idle processors: after each wake() and each job, workers spin
-// for a while before they sleep. They inherit the affinity of the thread that makes the pool. One thread
-// calls everything.
+// for a while before they sleep. They inherit the affinity of the thread that makes the pool, and block all
+// signals. One thread calls everything.
 class ThreadPool {
 public:
     // workers: the caller counts as one; 1 = no thread is made. spinTime: how long idle workers spin.

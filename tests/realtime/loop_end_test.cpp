@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a haptic loop tells the arm, and what it does with ticks that it missed.
+// What a haptic loop tells the arm, and what it does with ticks that it missed; signals during a run.
 #include "engine/run/haptic_loop.h"
 
+#include <csignal>
 #include <doctest/doctest.h>
 #include <thread>
 
@@ -84,4 +85,25 @@ TEST_CASE("Periods that a late tick overran are skipped, not caught up in a burs
     arm.run();
     CHECK(arm.loop.missed() >= 18);
     CHECK(reads <= 60 - 18);
+}
+
+TEST_CASE("The threads of a run leave the program's signals to the thread that started it") {
+    const auto takesSignals = [] {
+        sigset_t mask;
+        ::pthread_sigmask(SIG_BLOCK, nullptr, &mask);
+        return ::sigismember(&mask, SIGTERM) == 0;
+    };
+    FakeRun fake(15, pressingPath(0.5));
+    std::atomic<int> ticks{0}, queries{0}, frames{0};
+    fake.hand.spoil = [&](double, HandSample&) { ticks += takesSignals() ? 1 : 0; };
+    fake.answers.before = [&] { queries += takesSignals() ? 1 : 0; };
+    fake.feed.beforePublish = [&](uint32_t index) { frames += index > 0 && takesSignals() ? 1 : 0; };
+    int writer = 0;
+    fake.sink.onTurn = [&](const TickRow&) { writer += takesSignals() ? 1 : 0; };
+    fake.go();
+    CHECK(ticks == 0);
+    CHECK(queries == 0);
+    CHECK(frames == 0);
+    CHECK(writer > 0);
+    CHECK(takesSignals());
 }

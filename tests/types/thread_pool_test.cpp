@@ -3,7 +3,9 @@
 #include "engine/types/thread_pool.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -53,6 +55,31 @@ TEST_CASE("Sleeping workers are woken by wake(), and a job does not need them") 
     workers.run(static_cast<uint32_t>(by.size()),
                 [&](uint32_t part) { by[part] = std::this_thread::get_id(); });
     CHECK(std::ranges::count(by, std::thread::id()) == 0);
+}
+
+TEST_CASE("Workers block the signals of the program, and the maker of the pool keeps its own") {
+    const auto blocks = [](int signal) {
+        sigset_t mask;
+        ::pthread_sigmask(SIG_BLOCK, nullptr, &mask);
+        return ::sigismember(&mask, signal) == 1;
+    };
+    const bool before = blocks(SIGTERM);
+    ThreadPool workers(3);
+    CHECK(blocks(SIGTERM) == before);
+    std::atomic<int> taken{0}, open{0}, deaf{0};
+    for (int round = 0; round < 20 && taken == 0; ++round) { // until a worker takes part
+        workers.run(16, [&, caller = std::this_thread::get_id()](uint32_t) {
+            if (std::this_thread::get_id() != caller) {
+                ++taken;
+                open += blocks(SIGTERM) ? 0 : 1;
+                deaf += blocks(SIGSEGV) ? 1 : 0;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        });
+    }
+    CHECK(taken > 0);
+    CHECK(open == 0);
+    CHECK(deaf == 0);
 }
 
 TEST_CASE("The end of a thread pool does not hang, whatever its workers are doing") {

@@ -41,9 +41,9 @@ struct EngineOptions {
 };
 
 /// Owns a compute device, a frame thread, a contact thread, a clearance thread, and up to 11 publishing
-/// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Installs no signal
-/// handler, locks no memory, changes no environment and does not fork; the constructor starts the program
-/// fathom-reader for scenes with URDFs or meshes.
+/// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Its threads block
+/// all signals but those of faults. Installs no signal handler, locks no memory, changes no environment and
+/// does not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
     /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to
