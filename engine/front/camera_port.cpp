@@ -3,6 +3,7 @@
 
 #include "engine/front/float_mode.h"
 #include "engine/types/decimation.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,30 @@ namespace {
 
 bool aligned(const void* data, size_t to) {
     return data != nullptr && reinterpret_cast<uintptr_t>(data) % to == 0;
+}
+
+void requireImage(const std::string& place, const char* field, const void* data, size_t to) {
+    if (!aligned(data, to)) {
+        throw fathom::BadInput(place, field, data == nullptr ? "null" : "not aligned",
+                               "an image aligned to " + std::to_string(to) + " bytes");
+    }
+}
+
+void requirePose(const std::string& place, const char* field, const Pose& pose) {
+    if (!isUsable(front::internal(pose))) {
+        const auto& [x, y, z] = pose.position;
+        const auto& [w, i, j, k] = pose.rotation;
+        std::string value = "position";
+        for (const double number : {x, y, z}) {
+            value += " " + significant(number, 6);
+        }
+        value += ", rotation";
+        for (const double number : {w, i, j, k}) {
+            value += " " + significant(number, 6);
+        }
+        throw fathom::BadInput(place, field, value,
+                               "a finite pose within 1000 km, whose quaternion is not zero");
+    }
 }
 
 } // namespace
@@ -29,9 +54,8 @@ SubmitStatus CameraPort::Impl::checkStamp(const Frame& frame) const noexcept {
 }
 
 SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
-    const size_t colourSize = model.colourFormat == ColourFormat::Rgb ? 1 : 4;
-    const size_t depthSize = model.depthFormat == DepthFormat::Metres ? sizeof(float) : sizeof(uint16_t);
-    if (!aligned(frame.depth, depthSize) || (info.hasColour && !aligned(frame.colour, colourSize))) {
+    if (!aligned(frame.depth, depthAlignment()) ||
+        (info.hasColour && !aligned(frame.colour, colourAlignment()))) {
         return SubmitStatus::MissingImage;
     }
     return isUsable(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
@@ -144,12 +168,12 @@ SubmitStatus CameraPort::Impl::put(const Frame& frame, std::function<void()> rel
 }
 
 fathom::Frame CameraPort::Impl::copy(const Frame& frame) {
-    const SubmitStatus status = checkImages(frame);
-    if (status != SubmitStatus::Accepted) {
-        throw BadInput(std::string("frame: ") +
-                       (status == SubmitStatus::BadPose ? "baseTcamera" : "depth or colour") +
-                       " (allowed: images of the camera's formats, a finite pose within 1000 km)");
+    const std::string place = "camera " + model.name;
+    requireImage(place, "frame.depth", frame.depth, depthAlignment());
+    if (info.hasColour) {
+        requireImage(place, "frame.colour", frame.colour, colourAlignment());
     }
+    requirePose(place, "frame.baseTcamera", frame.baseTcamera);
     return contentOf(frame, nullptr);
 }
 

@@ -46,6 +46,10 @@ private:
         void operator()(Copy* copy) const noexcept { copy->used.store(false, std::memory_order_release); }
     };
     using UsedCopy = std::unique_ptr<Copy, GiveBack>;
+    size_t depthAlignment() const noexcept {
+        return model.depthFormat == DepthFormat::Metres ? sizeof(float) : sizeof(uint16_t);
+    }
+    size_t colourAlignment() const noexcept { return model.colourFormat == ColourFormat::Rgb ? 1 : 4; }
     SubmitStatus checkStamp(const Frame& frame) const noexcept;
     SubmitStatus checkImages(const Frame& frame) const noexcept;
     UsedCopy unused();

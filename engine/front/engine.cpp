@@ -218,7 +218,8 @@ CameraPort Engine::camera(std::size_t index) {
 
 CameraPort Engine::camera(std::string_view name) {
     if (name != impl_->camera->model.name) {
-        throw BadInput("camera: '" + std::string(name) + "' (allowed: '" + impl_->camera->model.name + "')");
+        throw BadInput("camera: '" + printable(name) + "' (allowed: '" +
+                       printable(impl_->camera->model.name) + "')");
     }
     return CameraPort(impl_->camera);
 }

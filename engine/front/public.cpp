@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 namespace fathom::v0 {
 
@@ -65,15 +66,28 @@ v0::State external(StepState state) noexcept {
     return v0::State::Fading;
 }
 
-Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
-    const bool sized = lens.width > 0 && lens.height > 0;
-    const bool finite = std::isfinite(lens.cx) && std::isfinite(lens.cy) && std::isfinite(lens.fx) &&
-                        std::isfinite(lens.fy) &&
-                        std::ranges::all_of(lens.distortion, [](double k) { return std::isfinite(k); });
-    if (!sized || !finite || lens.fx <= 0.0 || lens.fy <= 0.0) {
-        throw v0::BadInput(std::string("camera: ") + field + ": " + std::to_string(lens.width) + "x" +
-                           std::to_string(lens.height) + ", fx " + significant(lens.fx, 9) +
-                           " (allowed: a size, positive focal lengths and finite numbers)");
+Intrinsics internal(const v0::Intrinsics& lens, const std::string& place, const char* field) {
+    const std::string size = std::to_string(lens.width) + "x" + std::to_string(lens.height);
+    if (lens.width == 0 || lens.height == 0) {
+        throw BadInput(place, field, size, "a width and a height above 0");
+    }
+    const auto refuse = [&](const std::string& number, double value, const char* allowed) {
+        throw BadInput(place, field, size + ", " + number + " " + significant(value, 9), allowed);
+    };
+    for (const auto& [number, value] : {std::pair("fx", lens.fx), {"fy", lens.fy}}) {
+        if (!std::isfinite(value) || value <= 0.0) {
+            refuse(number, value, "a positive number of pixels");
+        }
+    }
+    for (const auto& [number, value] : {std::pair("cx", lens.cx), {"cy", lens.cy}}) {
+        if (!std::isfinite(value)) {
+            refuse(number, value, "a finite number of pixels");
+        }
+    }
+    for (size_t i = 0; i < lens.distortion.size(); ++i) {
+        if (!std::isfinite(lens.distortion[i])) {
+            refuse("distortion[" + std::to_string(i) + "]", lens.distortion[i], "a finite number");
+        }
     }
     return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};
 }
@@ -131,15 +145,15 @@ v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& or
 
 CameraInfo internal(const v0::CameraModel& model) {
     constexpr double kFloatUnit = 0.0001; // [m] to which depth in metres is rounded
+    const std::string place = "camera " + model.name;
     CameraInfo info;
-    info.depth = internal(model.depth, "depth");
+    info.depth = internal(model.depth, place, "depth");
     info.registered = !model.colour.has_value();
-    info.colour = model.colour ? internal(*model.colour, "colour") : info.depth;
+    info.colour = model.colour ? internal(*model.colour, place, "colour") : info.depth;
     info.colourTdepth = info.registered ? Pose{} : normalised(internal(model.colourTdepth));
     info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
     info.hasColour = model.colourFormat != v0::ColourFormat::None;
     info.colourFormat = formatOf(model.colourFormat);
-    const std::string place = "camera " + printable(model.name);
     checkKnown(place, "depthFormat", model.depthFormat, v0::DepthFormat::Metres, "Uint16 or Metres");
     checkKnown(place, "colourFormat", model.colourFormat, v0::ColourFormat::Yuyv, "None, Rgb, Rgba or Yuyv");
     if (!(info.metresPerUnit > 0.0)) {

@@ -68,7 +68,7 @@ auto translated(Make&& make) {
     } catch (const DeviceFailed& e) {
         throw v0::ComputeDeviceLost(e.what());
     } catch (const std::exception& e) {
-        throw v0::Error(e.what());
+        throw v0::Error(printable(e.what())); // a std::filesystem_error quotes a path
     }
 }
 

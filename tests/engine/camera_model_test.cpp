@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <doctest/doctest.h>
 #include <mutex>
 #include <string>
@@ -30,10 +31,53 @@ TEST_CASE("A camera model that cannot be used is rejected by one line with its n
     CHECK(fault([](CameraModel& m) { m.depth.fx = 0.0; }).find("depth: 80x60, fx 0 (allowed: ") !=
           std::string::npos);
     CHECK(std::ranges::none_of(unit, [](char c) { return c == '\n' || c == '\x1b'; }));
+    const auto is = [&](void (*change)(CameraModel&), const char* text) {
+        CHECK(fault(change) == std::string("camera arm  [31m: ") + text);
+    };
+    is([](CameraModel& m) { m.depth.height = 0; }, "depth: 80x0 (allowed: a width and a height above 0)");
+    is([](CameraModel& m) { m.depth.fy = 0.0; }, "depth: 80x60, fy 0 (allowed: a positive number of pixels)");
+    is([](CameraModel& m) { m.depth.fx = HUGE_VAL; },
+       "depth: 80x60, fx inf (allowed: a positive number of pixels)");
+    is([](CameraModel& m) { m.depth.cy = HUGE_VAL; },
+       "depth: 80x60, cy inf (allowed: a finite number of pixels)");
+    is([](CameraModel& m) { m.depth.distortion[3] = -HUGE_VAL; },
+       "depth: 80x60, distortion[3] -inf (allowed: a finite number)");
+    is([](CameraModel& m) { (m.colour = m.depth)->cx = HUGE_VAL; },
+       "colour: 80x60, cx inf (allowed: a finite number of pixels)");
     CHECK(fault([](CameraModel& m) { m.colourFormat = static_cast<ColourFormat>(17); }).find("Format: 17 ") !=
           std::string::npos);
     CHECK(fault([](CameraModel& m) { m.depthFormat = static_cast<DepthFormat>(-1); }).find("Format: -1 ") !=
           std::string::npos);
+}
+
+TEST_CASE("A frame that lockstep cannot use is rejected by one line with camera, field, value and limits") {
+    CameraModel model = smallCamera();
+    model.colourFormat = ColourFormat::Rgba;
+    Lockstep lockstep(wallScene(), model, startAt(0.5));
+    const Wall wall;
+    const std::vector<std::uint32_t> colour(80 * 60, 0);
+    const auto fault = [&](auto&& change) {
+        Frame frame = wall.at(1);
+        frame.colour = colour.data();
+        change(frame);
+        try {
+            lockstep.process(frame);
+        } catch (const BadInput& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    CHECK(fault([](Frame&) {}) == "");
+    CHECK(fault([](Frame& f) { f.depth = nullptr; }) ==
+          "camera camera: frame.depth: null (allowed: an image aligned to 2 bytes)");
+    CHECK(fault([](Frame& f) { f.colour = nullptr; }) ==
+          "camera camera: frame.colour: null (allowed: an image aligned to 4 bytes)");
+    CHECK(fault([](Frame& f) { f.colour = static_cast<const std::byte*>(f.colour) + 1; }) ==
+          "camera camera: frame.colour: not aligned (allowed: an image aligned to 4 bytes)");
+    CHECK(
+        fault([](Frame& f) { f.baseTcamera.position[1] = HUGE_VAL; }) ==
+        "camera camera: frame.baseTcamera: position 0 inf 0, rotation 1 0 0 0 (allowed: a finite pose within "
+        "1000 km, whose quaternion is not zero)");
 }
 
 TEST_CASE("A pose between the lenses protects the same whatever the length of its quaternion") {

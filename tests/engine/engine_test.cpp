@@ -76,6 +76,14 @@ TEST_CASE("Two cameras, an unknown camera and another hand are rejected with one
     CHECK_THROWS_AS(Scene::fromText("fixtures: 3"), BadInput);
 }
 
+TEST_CASE("Names of cameras cannot break the line of a message or control a terminal") {
+    CameraModel model = smallCamera();
+    model.name = "wr\nist\x1b[31m";
+    Engine engine(boxScene(), model);
+    CHECK_THROWS_WITH_AS(engine.camera("foo\nbar"), "camera: 'foo bar' (allowed: 'wr ist [31m')", BadInput);
+    CHECK_NOTHROW(engine.camera("wr\nist\x1b[31m"));
+}
+
 TEST_CASE("A hand that could not be opened does not keep another one out") {
     Engine engine(wallScene(), smallCamera());
     CHECK_THROWS_AS(engine.openHand(startAt(std::nan(""))), BadInput);
