@@ -70,8 +70,10 @@ PYBIND11_MODULE(_fathom, module) {
         "'debug', 'info', 'warning' or 'error'. None: log lines are discarded, the default.");
     // Registered first, so called last of all: no thread of an engine enters an interpreter that ends.
     py::module_::import("atexit").attr("register")(py::cpp_function([] {
-        setLog(py::none());
-        endInterpreter();
-        closeEngines();
+        if (usedInThisProcess()) {
+            setLog(py::none());
+            endInterpreter();
+            closeEngines();
+        }
     }));
 }

@@ -14,13 +14,22 @@ constexpr auto kPatience = std::chrono::seconds(10); // for calls of other threa
 
 std::atomic<std::thread::id> lastThread{}; // that may return to the interpreter; none = any may
 std::atomic<int> inside{0};                // threads without the lock, or on their way back
+std::atomic<pid_t> process{::getpid()};    // that of `inside`
+
+// Call with the interpreter's lock. Returns the state of the thread.
+PyThreadState* leave() noexcept {
+    const pid_t here = ::getpid();
+    if (process.exchange(here) != here) { // forked: the other threads do not exist
+        inside = 0;
+    }
+    ++inside;
+    return PyEval_SaveThread();
+}
 
 } // namespace
 
 Unlocked::Unlocked() noexcept
-    : state_(PyEval_SaveThread()) {
-    ++inside;
-}
+    : state_(leave()) {}
 
 Unlocked::~Unlocked() {
     if (const auto last = lastThread.load();
@@ -32,6 +41,10 @@ Unlocked::~Unlocked() {
     }
     PyEval_RestoreThread(state_);
     --inside;
+}
+
+bool usedInThisProcess() noexcept {
+    return process == ::getpid();
 }
 
 void endInterpreter() noexcept {

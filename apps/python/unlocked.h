@@ -20,6 +20,10 @@ private:
     PyThreadState* state_;
 };
 
+// False in a forked child without calls of its own: it has none of the threads whose calls count, and what
+// they had locked stays locked.
+bool usedInThisProcess() noexcept;
+
 // The interpreter ends: only the calling thread returns to it from now on. Waits until the calls of others
 // have ended, at most 10 s. Called once, by atexit.
 void endInterpreter() noexcept;

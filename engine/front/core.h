@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <optional>
+#include <unistd.h>
 
 namespace fathom::v0 {
 
@@ -70,5 +71,14 @@ private:
     std::optional<double> firstTime_; // [s] capture time of the first frame
     bool checked_ = false;
 };
+
+// Call in destructors; processId: that of the constructor. A forked child has none of the threads that `impl`
+// and the driver of its device would wait for, so `impl` is never destroyed there.
+template <class Impl>
+void leakInForkedChild(pid_t processId, std::unique_ptr<Impl>& impl) noexcept {
+    if (processId != ::getpid()) {
+        static_cast<void>(impl.release());
+    }
+}
 
 } // namespace fathom::front

@@ -184,6 +184,7 @@ struct Engine::Impl {
         camera->close();
     }
 
+    const pid_t processId = ::getpid();
     std::shared_ptr<CameraPort::Impl> camera;
     std::shared_ptr<front::PortState> shared;
     front::ComputeSide compute;
@@ -207,7 +208,9 @@ Engine::Engine(const Scene& scene, std::span<const CameraModel> cameras, const E
         return std::make_unique<Impl>(scene, onlyOne(cameras), options);
     })) {}
 
-Engine::~Engine() = default;
+Engine::~Engine() {
+    front::leakInForkedChild(impl_->processId, impl_);
+}
 
 CameraPort Engine::camera(std::size_t index) {
     if (index != 0) {

@@ -27,6 +27,7 @@ struct Lockstep::Impl {
     FrameTimes process(const Frame& frame);
     bool queryContacts();
 
+    const pid_t processId = ::getpid();
     CameraPort::Impl camera;
     front::HapticSide haptic;
     front::ComputeSide compute;
@@ -83,7 +84,9 @@ Lockstep::Lockstep(const Scene& scene, const CameraModel& camera, const HandStar
         return std::make_unique<Impl>(scene, camera, start, options);
     })) {}
 
-Lockstep::~Lockstep() = default;
+Lockstep::~Lockstep() {
+    front::leakInForkedChild(impl_->processId, impl_);
+}
 
 FrameTimes Lockstep::process(const Frame& frame) {
     return front::translated([&] {

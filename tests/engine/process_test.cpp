@@ -71,3 +71,47 @@ TEST_CASE("The threads of an engine block the signals of the program, and its ow
     }
     CHECK(added >= 3); // frames, contacts, clearance
 }
+
+#ifndef FATHOM_SANITIZED // sanitizers look for leaks in the child
+
+namespace {
+
+// Not the driver of a GPU, whose own exit handlers may not expect a fork.
+const EngineOptions kOnCpu{"llvmpipe", "", false};
+
+// Status of a child that runs `body` and then exits, as waitpid() gives it.
+template <class Body>
+int statusOfChild(Body&& body) {
+    std::fflush(nullptr);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::alarm(60);
+        body();
+        std::exit(0);
+    }
+    int status = -1;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    return status;
+}
+
+} // namespace
+
+TEST_CASE("A forked child that exits, or destroys its copy of an engine, leaves the engine to its parent") {
+    static auto engine = std::make_unique<Engine>(wallScene(), smallCamera(), kOnCpu);
+    CHECK(statusOfChild([] {}) == 0); // destroys what is static
+    CHECK(statusOfChild([] { engine.reset(); }) == 0);
+    CameraPort port = engine->camera();
+    const Wall wall;
+    CHECK(port.submit(wall.at(now())) == SubmitStatus::Accepted);
+    CHECK(eventually([&] { return port.processed() == 1; }));
+    engine.reset();
+}
+
+TEST_CASE("A forked child that destroys its copy of a lockstep run leaves the run to its parent") {
+    auto lockstep = std::make_unique<Lockstep>(wallScene(), smallCamera(), startAt(0.5), kOnCpu);
+    CHECK(statusOfChild([&] { lockstep.reset(); }) == 0);
+    const Wall wall;
+    CHECK_NOTHROW(lockstep->process(wall.at(1)));
+}
+
+#endif

@@ -181,6 +181,37 @@ class Exit(unittest.TestCase):
             done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
             self.assertEqual(done.returncode, 0, done.stderr)
 
+    def test_a_forked_child_that_ends_leaves_the_engine_to_its_parent(self):
+        script = textwrap.dedent("""
+            import os, signal, sys, threading, time
+            sys.path.insert(0, "tests/python")
+            import fathom, wall
+            fathom.set_log(lambda level, line: None)
+            def run_steps():  # a call without the interpreter's lock, which the child does not have
+                while True:
+                    fathom.Scene.from_text(wall.SCENE)
+            made = fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), compute_device="llvmpipe")
+            images = made.camera()
+            threading.Thread(target=run_steps, daemon=True).start()
+            for destroys in (False, True):
+                begin = time.monotonic()
+                child = os.fork()
+                if child == 0:
+                    signal.alarm(60)
+                    if destroys:
+                        made.close()
+                        del made
+                    sys.exit(0)
+                print("child", os.waitpid(child, 0)[1], time.monotonic() - begin < 8)
+            images.submit(wall.depth())
+            while images.processed == 0:
+                time.sleep(0.01)
+            made.close()
+            print("parent")
+        """)
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False)
+        self.assertEqual(done.stdout, "child 0 True\nchild 0 True\nparent\n", done.stderr)
+
     def ends_with_zero(self, end):
         script = textwrap.dedent("""
             import atexit, os, sys, threading, time

@@ -43,7 +43,8 @@ struct EngineOptions {
 /// Owns a compute device, a frame thread, a contact thread, a clearance thread, and up to 11 publishing
 /// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Its threads block
 /// all signals but those of faults. Installs no signal handler, locks no memory, changes no environment and
-/// does not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
+/// does not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes. After
+/// fork() only the parent may use it: in the child its destructor does nothing.
 class FATHOM_API Engine {
 public:
     /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to

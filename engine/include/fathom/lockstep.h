@@ -15,7 +15,8 @@ struct FrameTimes {
     double published = 0.0; ///< from the start until steps can use the set; includes the two before
 };
 
-/// Use it from one thread. Times are yours: any steady sequence that frames and steps share.
+/// Use it from one thread. Times are yours: any steady sequence that frames and steps share. After fork()
+/// only the parent may use it: in the child its destructor does nothing.
 class FATHOM_API Lockstep {
 public:
     /// EngineOptions::measuredArm must be false: an arm follows the tool exactly.
