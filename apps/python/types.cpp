@@ -95,6 +95,7 @@ Pose poseOf(const py::array_t<double, py::array::c_style | py::array::forcecast>
 
 // Complex numbers would lose a part with no more than a warning.
 Pose poseOfArray(const py::array& matrix) {
+    checkNoMask("pose", matrix);
     if (matrix.dtype().kind() == 'c') {
         throw py::value_error("pose: complex numbers (allowed: real ones)");
     }
@@ -167,6 +168,13 @@ double finite(const char* name, double value) {
                               " (allowed: finite numbers)");
     }
     return value;
+}
+
+void checkNoMask(const char* name, const py::array& array) {
+    if (py::isinstance(array, py::module_::import("numpy.ma").attr("MaskedArray"))) {
+        throw py::value_error(std::string(name) +
+                              ": numpy.ma.MaskedArray (allowed: an array without a mask; use filled(0))");
+    }
 }
 
 void bindTypes(py::module_& module) {

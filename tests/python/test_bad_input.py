@@ -26,6 +26,18 @@ class BadInput(unittest.TestCase):
         with self.assertRaises(TypeError):
             run.process(None, stamp=1)
 
+    def test_an_array_with_a_mask_is_refused_because_nothing_reads_the_mask(self):
+        pixels = numpy.zeros((wall.HEIGHT, wall.WIDTH, 3), numpy.uint8)
+        run = wall.lockstep(colour_format=fathom.ColourFormat.RGB)
+        with self.refused("depth: numpy.ma.MaskedArray \\(allowed: an array without a mask; use filled\\(0\\)\\)"):
+            run.process(numpy.ma.array(wall.depth(), mask=True), pixels, stamp=1)
+        with self.refused("colour: numpy.ma.MaskedArray"):
+            run.process(wall.depth(), numpy.ma.array(pixels, mask=False), stamp=1)
+        with self.refused("pose: numpy.ma.MaskedArray"):
+            fathom.Pose(numpy.ma.array(numpy.eye(4), mask=numpy.eye(4) > 2))
+        run.process(numpy.ma.array(wall.depth(), mask=True).filled(0), pixels, stamp=1)
+        self.assertEqual(len(run.regions()), 0)
+
     def test_colour_that_the_camera_does_not_have_or_lacks_is_refused(self):
         pixels = numpy.zeros((wall.HEIGHT, wall.WIDTH, 3), numpy.uint8)
         with self.refused("colour: an image", "None"):
