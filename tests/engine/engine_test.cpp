@@ -84,6 +84,18 @@ TEST_CASE("Names of cameras cannot break the line of a message or control a term
     CHECK_NOTHROW(engine.camera("wr\nist\x1b[31m"));
 }
 
+TEST_CASE("A port of a camera stays usable when it is moved, which copies it") {
+    Engine engine(boxScene(), smallCamera());
+    CameraPort first = engine.camera();
+    CameraPort second(
+        static_cast<CameraPort&&>(first)); // std::move() of what is used again looks like a fault
+    const Wall wall;
+    CHECK(first.submit(wall.at(now())) == SubmitStatus::Accepted);
+    CHECK(second.submit(wall.at(now())) == SubmitStatus::Accepted);
+    first = static_cast<CameraPort&&>(second);
+    CHECK(second.dropped() == first.dropped());
+}
+
 TEST_CASE("A hand that could not be opened does not keep another one out") {
     Engine engine(wallScene(), smallCamera());
     CHECK_THROWS_AS(engine.openHand(startAt(std::nan(""))), BadInput);

@@ -75,8 +75,9 @@ enum class SubmitStatus {
 /// The enumerator's name, for messages: "StampAhead". Any thread.
 FATHOM_API const char* name(SubmitStatus status) noexcept;
 
-/// Takes the frames of one camera. A handle that you may copy, and that may outlive its engine. submit(),
-/// lend() and clockJumped() belong to one thread, the camera thread.
+/// Takes the frames of one camera. A handle that you may copy, and that may outlive its engine. Moving
+/// copies: a moved-from port stays usable. submit(), lend() and clockJumped() belong to one thread, the
+/// camera thread.
 class FATHOM_API CameraPort {
 public:
     /// Copies the frame and returns. The newest frame wins: one that still waits is dropped and counted.
@@ -97,6 +98,9 @@ public:
 
     std::uint64_t dropped() const noexcept;   ///< frames that a newer one replaced. Any thread.
     std::uint64_t processed() const noexcept; ///< frames that became a fixture set. Any thread.
+
+    CameraPort(const CameraPort&) noexcept = default;            ///< of the same camera
+    CameraPort& operator=(const CameraPort&) noexcept = default; ///< likewise
 
     struct FATHOM_LOCAL Impl;
     explicit CameraPort(std::shared_ptr<Impl> impl) noexcept; ///< for the library itself
