@@ -76,7 +76,8 @@ void bindStep(py::module_& module) {
                 return py::module_::import("fathom").attr("StepWarning")(static_cast<uint32_t>(s.warnings));
             },
             "StepWarning flags")
-        .def_readonly("scene_age", &Step::sceneAge, "[s] of the newest frame; NaN before the first")
+        .def_readonly("scene_age", &Step::sceneAge,
+                      "[s] since the newest stamp of all frames; NaN before the first")
         .def_readonly("min_gap", &Step::minGap,
                       "[m] smallest gap of the contact set; its reach if none is nearer; NaN if unknown")
         .def_readonly("guidance", &Step::guidance, "weight of the guidance, 0..1")

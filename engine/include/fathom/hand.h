@@ -99,7 +99,9 @@ struct Step {
     Pose baseTcommand{}; ///< tool pose that the hand commands, after hand map and clutch
     State state = State::Off;                 ///< what the forces do
     StepWarning warnings = StepWarning::None; ///< what limits them
-    double sceneAge = 0.0;                    ///< [s] of the newest frame; NaN before the first
+    /// [s] of the newest frame; NaN before the first. It never jumps up: after CameraPort::clockJumped() it
+    /// counts from the newest stamp of all, until a frame has a newer one.
+    double sceneAge = 0.0;
     /// [m] Smallest gap to the region spheres of the active contact set; its reach if none is nearer. NaN if
     /// unknown. Placed shapes do not count.
     double minGap = 0.0;
