@@ -81,20 +81,7 @@ std::vector<StreamChooser::Candidate> StreamChooser::depths() const {
     if (!all.empty()) {
         return all;
     }
-    std::string seen;
-    for (const ImageStream& stream : streams_) {
-        const bool unread = stream.encoding.empty() && !stream.noLens.empty();
-        seen += (seen.empty() ? "" : ", ") +
-                (unread ? stream.noLens : stream.name + " (" + stream.encoding + ")");
-    }
-    seen = seen.empty() ? "no images" + otherTopics() : seen;
-    const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
-    refuse("topics", seen,
-           wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
-               (options_.depth.empty()
-                    ? ", whose name is not one of infrared; mono16 under a name of depth; or "
-                      "depth=TOPIC; or organised sensor_msgs/PointCloud2"
-                    : ""));
+    refuseAll();
 }
 
 std::vector<StreamChooser::Candidate> StreamChooser::colours() const {
@@ -178,11 +165,12 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 // Of a file without colour.
 const ImageStream* StreamChooser::bestDepth() const {
-    using Score = std::tuple<int, bool, bool, bool>;
+    using Score = std::tuple<int, bool, bool, bool, bool>;
     Score best;
     const ImageStream* depth = nullptr;
     for (const auto& [d, how] : depths()) {
-        const Score score{how, d->lens.has_value(), !namedRangeImage(d->name), !d->compressed};
+        const Score score{how, d->lens.has_value(), !namedRangeImage(d->name), namedPlainly(d->name),
+                          !d->compressed};
         if (depth == nullptr || score > best) {
             best = score;
             depth = d;
@@ -217,7 +205,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
     if (ofColour.empty()) {
         return {bestDepth(), nullptr, {}};
     }
-    using Score = std::tuple<bool, int, int, int, bool, size_t, size_t, double, bool, bool>;
+    using Score = std::tuple<bool, int, int, int, bool, size_t, size_t, double, bool, bool, bool>;
     Score best;
     Pair pair;
     for (const auto& [d, depthFit] : ofDepth) {
@@ -232,6 +220,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
                               sharedParts(d->name, c->name),
                               sharedWords(d->name, c->name),
                               -glm::length(found.colourTdepth.position), // else the nearer camera
+                              namedPlainly(d->name),                     // before what is computed from it
                               !d->compressed,
                               !c->compressed};
             if (pair.depth == nullptr || score > best) {

@@ -29,8 +29,9 @@ class StreamChooser {
 public:
     StreamChooser(MessageFile& file, const SourceOptions& options);
     // Chooses depth and colour of one camera. Order of preference: one frame and lens, names, extrinsics,
-    // common topic path, shorter distance, uncompressed images, order in the file. Infrared is never depth.
-    // Grey images are colour only if there is no other. Throws BadInput that names file and topic.
+    // common topic path, shorter distance, plain names of depth, uncompressed images, order in the file.
+    // Infrared is never depth. Grey images are colour only if there is no other. Throws BadInput that names
+    // file and topic.
     StreamChoice choose();
 
 private:
@@ -78,6 +79,7 @@ private:
     void warnOf(const ImageStream& stream, StreamChoice& choice) const;
     std::string otherTopics() const;
     std::string describe(const StreamChoice& choice) const;
+    [[noreturn]] void refuseAll() const;
     [[noreturn]] void refuseRelation(const ImageStream& depth, const ImageStream& colour,
                                      const Relation& relation) const;
     [[noreturn]] void refuse(const std::string& field, const std::string& value,

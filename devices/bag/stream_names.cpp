@@ -72,8 +72,9 @@ bool endsCamera(const std::string& word) {
 class RoleOfWords {
 public:
     void add(const std::vector<std::string>& words, bool first, bool last);
-    NamedRole role() const { return role_; }
-    size_t decided() const { return decided_; } // number of parts up to the one that decides
+    NamedRole role() const { return derived_ && role_ == NamedRole::Depth ? NamedRole::Infrared : role_; }
+    bool ofDepth() const { return role_ == NamedRole::Depth; } // depth, or computed from it
+    size_t decided() const { return decided_; }                // number of parts up to the one that decides
 
 private:
     void use(const std::string& word, bool first);
@@ -81,12 +82,18 @@ private:
     NamedRole role_ = NamedRole::None;
     bool target_ = false, named_ = false;         // the next word, and the last one, name another camera
     bool depthHere_ = false, colourHere_ = false; // in this part
+    bool unscaledHere_ = false, derived_ = false; // no metres
     bool depthFolder_ = false;                    // the part before holds depth
     size_t parts_ = 0, decided_ = 0;
 };
 
 void RoleOfWords::use(const std::string& word, bool first) {
-    const WordUse use = useOf(word, first);
+    const WordUse use = useOf(word, first && !depthHere_);
+    if (use == WordUse::Derived || use == WordUse::Unscaled) {
+        derived_ = derived_ || role_ == NamedRole::Depth;
+        unscaledHere_ = unscaledHere_ || use == WordUse::Unscaled;
+        return;
+    }
     if (use == WordUse::None) {
         return;
     }
@@ -100,6 +107,7 @@ void RoleOfWords::use(const std::string& word, bool first) {
     case WordUse::Painted:
         role_ = NamedRole::Depth;
         depthHere_ = true;
+        derived_ = unscaledHere_;
         break;
     default:
         role_ = NamedRole::Infrared;
@@ -109,7 +117,7 @@ void RoleOfWords::use(const std::string& word, bool first) {
 
 void RoleOfWords::add(const std::vector<std::string>& words, bool first, bool last) {
     ++parts_;
-    depthHere_ = colourHere_ = false;
+    depthHere_ = colourHere_ = unscaledHere_ = false;
     for (size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         const bool more = i + 1 < words.size();
@@ -118,7 +126,8 @@ void RoleOfWords::add(const std::vector<std::string>& words, bool first, bool la
             named_ = true;
         } else if (word == "to" || (word == "in" && more) || (word == "and" && named_)) {
             target_ = true;
-        } else if (word != "distance" || !more || words[i + 1] != "to") { // of ranges, or of an image's plane
+        } else if (!((word == "distance" || word == "relative") && more && words[i + 1] == "to")) {
+            // Else of ranges, of an image's plane, or of a frame.
             named_ = false;
             use(word, first);
         }
@@ -174,7 +183,15 @@ bool namedDepthImage(const std::string& topic) {
     const std::vector<std::string> words = wordsOf(baseTopic(topic));
     const auto depth = std::ranges::find(words, "depth");
     const bool camera = depth != words.end() && depth + 1 != words.end() && endsCamera(*(depth + 1));
-    return namedRole(topic) == NamedRole::Depth && !namedDistance(topic) && !camera;
+    const bool ofDepth = namedRole(topic) == NamedRole::Depth || roleOfWords(topic).ofDepth();
+    return ofDepth && !namedDistance(topic) && !camera;
+}
+
+bool namedPlainly(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(baseTopic(topic));
+    const auto depth = std::ranges::find_if(
+        words, [](const std::string& word) { return useOf(word, true) == WordUse::Depth; });
+    return std::all_of(depth, words.end(), isUsualWord);
 }
 
 bool namedRectified(const std::string& topic) {

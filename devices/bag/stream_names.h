@@ -28,6 +28,8 @@ std::string folderOfEither(const std::string& topic);
 bool namedDistance(const std::string& topic);
 // "/camera/depth/image_colored", but not "/depth_camera/image_raw": its colour would be painted depth.
 bool namedDepthImage(const std::string& topic);
+// "/camera/depth/image_raw", but not "/camera/depth_filled/image": no unusual word follows that of depth.
+bool namedPlainly(const std::string& topic);
 // "image_rect", "image_rect_raw": rectified images.
 bool namedRectified(const std::string& topic);
 // "aligned_depth...", "depth_registered": shown by another camera's lens.

@@ -89,11 +89,30 @@ void StreamChooser::warnOf(const ImageStream& stream, StreamChoice& choice) cons
     const bool depthFrame = std::ranges::any_of(
         words, [](const std::string& word) { return useOf(word, true) == WordUse::Depth; });
     if (stream.content == ros::Content::Depth && stream.role == NamedRole::None && options_.depth.empty() &&
-        !stream.metres && !stream.name.ends_with("/compressedDepth") && !depthFrame) {
+        !stream.name.ends_with("/compressedDepth") && !namedDistance(stream.name) && !depthFrame) {
         choice.warnings.push_back(stream.name + ": taken as depth by its encoding alone, " + stream.encoding +
                                   ", as neither topic nor frame names depth; depth=" + stream.name +
                                   " confirms it");
     }
+}
+
+// Where no image is depth.
+void StreamChooser::refuseAll() const {
+    std::string seen;
+    for (const ImageStream& stream : streams_) {
+        const bool unread = stream.encoding.empty() && !stream.noLens.empty();
+        seen += (seen.empty() ? "" : ", ") +
+                (unread ? stream.noLens : stream.name + " (" + stream.encoding + ")");
+    }
+    seen = seen.empty() ? "no images" + otherTopics() : seen;
+    const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
+    refuse(
+        "topics", seen,
+        wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
+            (options_.depth.empty()
+                 ? ", whose name is not one of infrared or inverse depth; mono16 under a name of depth; or "
+                   "depth=TOPIC; or organised sensor_msgs/PointCloud2"
+                 : ""));
 }
 
 // What a file without images holds.

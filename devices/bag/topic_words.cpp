@@ -18,20 +18,44 @@ constexpr std::array<std::string_view, 35> kInfraredWords{
     "confidence", "disparity",   "reflec",   "reflectivity", "signal",    "reflectance",  "ambient",
     "noise",      "uncertainty", "variance", "temperature",  "label",     "segmentation", "semantic",
     "mask",       "instances",   "gray",     "grey",         "mono",      "fisheye",      "phase"};
-constexpr std::array<std::string_view, 27> kBesideWords{"error",         "err",
-                                                        "std",           "stddev",
-                                                        "sigma",         "snr",
-                                                        "quality",       "cost",
-                                                        "costmap",       "elevation",
-                                                        "height",        "normal",
-                                                        "normals",       "surface",
-                                                        "validity",      "age",
-                                                        "seg",           "instance",
-                                                        "detection",     "detections",
-                                                        "overlay",       "panoptic",
-                                                        "classes",       "heatmap",
-                                                        "depthvis",      "disparitynormalized",
-                                                        "surfacenormals"};
+constexpr std::array<std::string_view, 31> kBesideWords{"error",
+                                                        "err",
+                                                        "std",
+                                                        "stddev",
+                                                        "sigma",
+                                                        "snr",
+                                                        "quality",
+                                                        "cost",
+                                                        "costmap",
+                                                        "elevation",
+                                                        "height",
+                                                        "normal",
+                                                        "normals",
+                                                        "surface",
+                                                        "validity",
+                                                        "age",
+                                                        "seg",
+                                                        "instance",
+                                                        "detection",
+                                                        "detections",
+                                                        "overlay",
+                                                        "panoptic",
+                                                        "classes",
+                                                        "heatmap",
+                                                        "depthvis",
+                                                        "disparitynormalized",
+                                                        "surfacenormals",
+                                                        "invdepth",
+                                                        "idepth",
+                                                        "inversedepth",
+                                                        "logdepth"};
+// Behind a word of depth alone: cameras and computers are called edge, too.
+constexpr std::array<std::string_view, 18> kDerivedWords{
+    "gradient", "grad",       "laplacian",   "derivative", "curvature",   "residual",
+    "diff",     "difference", "weight",      "prob",       "probability", "likelihood",
+    "entropy",  "score",      "reliability", "edge",       "contour",     "flow"};
+constexpr std::array<std::string_view, 8> kUnscaledWords{"inverse",    "inv",        "log",  "relative",
+                                                         "normalized", "normalised", "norm", "unscaled"};
 constexpr std::array<std::string_view, 4> kPaintedWords{"colored", "coloured", "colorized", "colourized"};
 // Not in the first of several parts. "ab" is active brightness, "disp" disparity.
 constexpr std::array<std::string_view, 1> kLaterDepthWords{"z"};
@@ -65,8 +89,12 @@ WordUse useAlone(const std::string& word, bool firstPart) {
     if (among(kInfraredWords, word)) {
         return WordUse::Infrared;
     }
-    return among(kBesideWords, word) || (later && among(kLaterBesideWords, word)) ? WordUse::Beside
-                                                                                  : WordUse::None;
+    if (among(kBesideWords, word) || (later && among(kLaterBesideWords, word))) {
+        return WordUse::Beside;
+    }
+    return among(kDerivedWords, word)    ? WordUse::Derived
+           : among(kUnscaledWords, word) ? WordUse::Unscaled
+                                         : WordUse::None;
 }
 
 bool isUpper(char c) {
@@ -117,6 +145,14 @@ std::vector<std::string> casedTokensOf(const std::string& name) {
 WordUse useOf(const std::string& word, bool firstPart) {
     const WordUse use = useAlone(word, firstPart);
     return use == WordUse::None ? useAlone(singularOf(word), firstPart) : use;
+}
+
+bool isUsualWord(const std::string& word) {
+    constexpr std::array<std::string_view, 20> kUsual{
+        "image",      "images",  "img",  "raw", "rect",   "rectified", "undistorted",
+        "registered", "aligned", "data", "map", "hw",     "sw",        "frame",
+        "stream",     "optical", "to",   "in",  "camera", "cam"};
+    return isDigit(word.front()) || useOf(word, false) != WordUse::None || among(kUsual, word);
 }
 
 std::vector<std::string> tokensOf(const std::string& name) {

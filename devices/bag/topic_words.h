@@ -15,11 +15,15 @@ enum class WordUse {
     Colour,
     Infrared, // also amplitude, confidence, labels and the like
     Beside,   // what programs compute beside depth, and cameras publish about it; no part of a camera's name
+    Derived,  // computed from depth, if it stands behind a word of depth: its gradient, its weights
+    Unscaled, // depth that is no metres, also if it stands in front of the word: inverse, relative
 };
 
 // Plurals are alike. Some words ("z", "ab") may also be the name of a robot: they say nothing in the first of
 // several parts of a topic.
 WordUse useOf(const std::string& word, bool firstPart);
+// Says how images are sent ("raw", "rect"), has a use, or is a number: nothing that hints at other images.
+bool isUsualWord(const std::string& word);
 // In lower case, split at signs.
 std::vector<std::string> tokensOf(const std::string& name);
 // Also split in camel case: "irImage" and "IRImage" are two words; but "DepthVis" is one, which has a use.

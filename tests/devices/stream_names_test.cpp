@@ -20,6 +20,86 @@ TEST_CASE("Errors, qualities and heights are not depth by the names of their top
     CHECK_FALSE(namedOneCamera("/surface1/depth/image", "/surface2/rgb/image")); // names of cameras
 }
 
+TEST_CASE("Inverse depth, and what programs compute from depth, are not depth by their names") {
+    for (const char* topic : {"/cam/inverse_depth",
+                              "/inverse_depth/image",
+                              "/cam/inv_depth",
+                              "/cam/depth_inv",
+                              "/cam/depth_inverse/image",
+                              "/cam/inverseDepth",
+                              "/cam/depthInverse",
+                              "/cam/idepth",
+                              "/cam/invdepth",
+                              "/cam/log_depth",
+                              "/cam/depth_normalized",
+                              "/cam/normalised_depth",
+                              "/cam/relative_depth",
+                              "/cam/depth/relative",
+                              "/cam/depth_diff",
+                              "/depth_diff/image",
+                              "/cam/depth/gradient/image",
+                              "/cam/depth_gradients",
+                              "/cam/depth_weights",
+                              "/cam/depth_prob",
+                              "/cam/depth_probability",
+                              "/cam/depth_edges",
+                              "/cam/depth_flow",
+                              "/cam/depth_residual",
+                              "/cam/depth/curvature",
+                              "/depth_conf/image"}) {
+        CAPTURE(topic);
+        CHECK(namedRole(topic) == NamedRole::Infrared);
+    }
+    for (const char* topic :
+         {"/cam/depth_registered/image_raw", "/cam/aligned_depth_to_color/image_raw",
+          "/cam/depth/image_rect_raw", "/edge/depth/image", "/edge_camera/depth/image", "/flow/depth",
+          "/cam/edge_depth", "/log/depth/image", "/relative/depth/image", "/cam/depth_relative_to_base",
+          "/robot/norm/depth", "/cam/depth_scaled", "/cam/depth_filtered/image"}) {
+        CAPTURE(topic);
+        CHECK(namedRole(topic) == NamedRole::Depth);
+    }
+    CHECK(namedRole("/edge/camera/image") == NamedRole::None); // a computer
+    CHECK(namedRole("/edge/color/image") == NamedRole::Colour);
+    CHECK(namedDepthImage("/cam/inverse_depth/image")); // painted where its encoding is colour
+}
+
+TEST_CASE("What is computed from depth is not played instead of it, in whatever order the topics are") {
+    for (const char* other : {"/cam/inverse_depth", "/cam/depth_gradient", "/cam/depth_estimate/image"}) {
+        for (const bool colour : {false, true}) {
+            const TemporaryFolder folder;
+            BagMaker maker;
+            addStream(maker, other, depthImage(2000));
+            addStream(maker, "/cam/depth", depthImage(500));
+            if (colour) {
+                addStream(maker, "/cam/color", redImage());
+            }
+            BagCamera camera = playStreams(folder, maker);
+            CAPTURE(other);
+            CHECK(firstDepth(camera) == doctest::Approx(0.5));
+        }
+    }
+    for (const char* own :
+         {"/a/depth/image_raw", "/a/depth_registered/image", "/a/depth0/image", "/a/depth"}) {
+        CHECK(namedPlainly(own));
+    }
+    CHECK_FALSE(namedPlainly("/a/depth_estimate/image"));
+}
+
+TEST_CASE("Floating point under names without a word of depth is played with a warning, as 16 bits are") {
+    const TemporaryFolder folder;
+    const auto warnings = [&](const std::string& topic, const std::string& frame) {
+        BagMaker maker;
+        addStream(maker, topic, {.frame = frame, .encoding = "32FC1", .pixels = filled(0.5f)},
+                  {.frame = frame});
+        return playStreams(folder, maker).warnings();
+    };
+    const auto found = warnings("/optical_flow", "camera");
+    REQUIRE(found.size() == 1);
+    lineSays(found[0], "/optical_flow: taken as depth by its encoding alone, 32FC1");
+    CHECK(warnings("/optical_flow", "camera_depth_optical_frame").empty());
+    CHECK(warnings("/cam/depth/image_raw", "camera").empty());
+}
+
 TEST_CASE("The error of depth is not played instead of depth, in whatever order the topics are") {
     for (const char* error : {"/cam/depth_error/image", "/cam/depth/error"}) {
         const TemporaryFolder folder;
