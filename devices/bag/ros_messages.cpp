@@ -2,7 +2,7 @@
 #include "devices/bag/ros_messages.h"
 
 #include "devices/recorded/lens_model.h"
-#include "devices/recorded/rotation_fault.h"
+#include "engine/types/rotation_fault.h"
 
 #include <array>
 #include <cmath>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/hand_csv.h"
 
-#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/number_text.h"
+#include "engine/types/rotation_fault.h"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,11 @@
 #include "devices/recorded/matrix_file.h"
 
 #include "devices/recorded/lens_model.h"
-#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/median.h"
 #include "engine/types/number_text.h"
+#include "engine/types/rotation_fault.h"
 #include "engine/types/split_words.h"
 
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/pose_track.h"
 
-#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/rotation_fault.h"
 #include "engine/types/split_words.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_extrinsics.h"
 
-#include "devices/recorded/rotation_fault.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
+#include "engine/types/rotation_fault.h"
 
 namespace fathom {
 

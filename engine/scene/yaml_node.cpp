@@ -3,8 +3,10 @@
 
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/log.h"
 #include "engine/types/parse_number.h"
 #include "engine/types/read_file.h"
+#include "engine/types/rotation_fault.h"
 #include "engine/types/suggestion.h"
 #include "engine/types/yaml_document.h"
 
@@ -215,7 +217,11 @@ dquat YamlNode::quatXyzw() const {
     if (!(largest > 1e-300)) {
         refuse(kQuaternion);
     }
-    return unitOf({q[3], q[0], q[1], q[2]});
+    const dquat given(q[3], q[0], q[1], q[2]);
+    if (const std::string fault = quaternionFault(given, "x y z w"); !fault.empty()) {
+        log::warn("{}: {}: {} is scaled to length 1 (expected: {})", file_, path_, value(), fault);
+    }
+    return unitOf(given);
 }
 
 void YamlNode::read(std::string_view key, double& out, const Range& range) const {

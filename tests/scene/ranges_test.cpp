@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The range of every numeric key, and the characters of every text.
+#include "tests/realtime/listening.h"
 #include "tests/scene/scene_file.h"
 
 #include <doctest/doctest.h>
@@ -131,4 +132,26 @@ TEST_CASE(
             .find(
                 "camera.source.frames: 7 (allowed: none: only a simulated camera has a selectable number; of "
                 "a recording, ,start=S and ,duration=S behind PATH play a part)") != std::string::npos);
+}
+
+TEST_CASE("A quaternion that is far from length 1 has a warning with its field") {
+    const std::string text = kMinimal + "camera: {base_T_camera: {quat_xyzw: ";
+    for (const char* quat : {"[90, 0, 0, 1]", "[0, 0, 45, 1]", "[0, 0, 1, 1]", "[0.1, 0.2, 0.3, 0.4]"}) {
+        CAPTURE(quat);
+        const testing::Listening log;
+        loadScene(SceneFile(text + quat + "}}\n").path());
+        CHECK(log.count(std::string("camera.base_T_camera.quat_xyzw: ") + quat + " is scaled to length 1") ==
+              1);
+        CHECK(log.count("a quaternion x y z w, in this order, of length 1; its length is ") == 1);
+    }
+    for (const char* quat : {"[0.707, 0, 0, 0.707]", "[0, 0.0065, 0.0052, 1]", "[0.5, -0.5, 0.5, 0.5]",
+                             "[0.7, 0, 0, 0.7]", "[0.58, 0.58, 0.58, 0]"}) {
+        CAPTURE(quat);
+        const testing::Listening log;
+        loadScene(SceneFile(text + quat + "}}\n").path());
+        CHECK(log.count("quat_xyzw") == 0);
+    }
+    const testing::Listening log;
+    loadScene(SceneFile(kMinimal + "hand: {map: {base_R_device: [0, 0, 90, 1]}}\n").path());
+    CHECK(log.count("hand.map.base_R_device: [0, 0, 90, 1] is scaled") == 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/recorded/rotation_fault.h"
+#include "engine/types/rotation_fault.h"
 
 #include "engine/types/number_text.h"
 
