@@ -140,11 +140,12 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         return {3, false, readExtrinsics(options_.extrinsics), ""};
     }
     const dvec3 apart = shiftOf(colour) - shiftOf(depth);
+    const std::string shiftSource = "P of the camera_info of " + depth.name + " and " + colour.name;
     // Drivers write another P for depth that they align, but not for the second camera of a stereo pair.
     const bool second = namedRight(colour.name) && !namedRight(depth.name);
     if (sameFrame && colour.lens && (second || !namedRegistered(depth.name)) &&
         glm::length(apart) > kSameCentre) {
-        return {3, false, {apart}, ""}; // a stereo pair in the frame of its first camera
+        return {3, false, {apart}, "", "", shiftSource}; // a stereo pair in the frame of its first camera
     }
     const bool same = !colour.lens || sameLens(*depth.lens, *colour.lens);
     if (same && sameFrame) {
@@ -152,7 +153,7 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
     }
     if (same && !sdk && namedRegistered(depth.name) && oneCamera(depth, colour)) {
         if (colour.lens && glm::length(apart) > kSameCentre) {
-            return {3, false, {apart}, ""};
+            return {3, false, {apart}, "", "", shiftSource};
         }
         const bool otherFrame = !depth.frame.empty() && !colour.frame.empty();
         return {sharedParts(depth.name, colour.name) > 0 && !otherFrame ? kOneLens : 3, true, {}, ""};
@@ -253,9 +254,14 @@ StreamChoice StreamChooser::choose() {
     if (!depth->lens && options_.intrinsics.empty()) {
         throw BadInput(file_.file().string() + ": " + depth->noLens);
     }
-    // Grey is not worth a refusal: nothing asks for it.
+    // Grey is not worth a word: nothing asks for it.
+    const bool wanted =
+        colour != nullptr && (colour->content != ros::Content::Grey || !options_.colour.empty());
+    if (colour != nullptr && keepsRelation()) {
+        doubtRig(relation, wanted);
+    }
     if (colour != nullptr && relation.rank == 0 && keepsRelation()) {
-        if (colour->content != ros::Content::Grey || !options_.colour.empty()) {
+        if (wanted) {
             refuseRelation(*depth, *colour, relation);
         }
         colour = nullptr;

@@ -42,6 +42,7 @@ private:
         Pose colourTdepth;
         std::string fault;
         std::string warning = {}; // of a pose that is used
+        std::string source = {};  // what states the pose
     };
     struct Pair {
         const ImageStream *depth = nullptr, *colour = nullptr; // colour: null = none
@@ -66,8 +67,9 @@ private:
     // A pose, why there is none, or why it may be wrong.
     struct FoundPose {
         std::optional<Pose> pose;
-        std::string warning;
+        std::string warning, source = {};
     };
+    static void doubtRig(Relation& relation, bool warns);
     FoundPose driverPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
     const MessageTopic* poseTopic(const ImageStream& depth, const ImageStream& colour) const;

@@ -3,6 +3,7 @@
 #include "devices/bag/stream_choice.h"
 
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/recording_extrinsics.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ bool nearlySame(const Pose& a, const Pose& b) {
 } // namespace
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
-    FoundPose found{sdkPose(depth, colour), ""};
+    FoundPose found{sdkPose(depth, colour), "", parentTopic(baseTopic(colour.name), 2) + "/tf"};
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!found.pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
@@ -38,7 +39,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
     }
     if (found.pose) {
         const bool registered = isIdentity(*found.pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *found.pose, "", found.warning};
+        return {2, registered, registered ? Pose{} : *found.pose, "", found.warning, found.source};
     }
     const std::string topic = isRealSenseTopic(depth.name)
                                   ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
@@ -49,6 +50,27 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
             "extrinsics: " + (found.warning.empty() ? "missing" : found.warning) +
                 " (allowed: depth registered to colour (same frame and lens), or the topic " + topic +
                 ", or extrinsics=FILE or colour=none after the file name)"};
+}
+
+// A pose that lenses of one rig do not have: beyond the bounds of any camera colour is unrelated to depth.
+void StreamChooser::doubtRig(Relation& relation, bool warns) {
+    constexpr double kFarthest = 10.0; // [m], as in checkCamera()
+    const std::optional<RigFault> fault = rigFault(relation.colourTdepth);
+    if (!fault) {
+        return;
+    }
+    std::string words = relation.source + ": " + fault->value + " (allowed: " + fault->allowed;
+    if (!(glm::length(relation.colourTdepth.position) <= kFarthest)) {
+        words += "; or extrinsics=FILE or colour=none after the file name)";
+        relation = {0, false, {}, "extrinsics: " + words};
+        return;
+    }
+    if (!warns) {
+        return;
+    }
+    words += "): regions by colour are lost if this is wrong; extrinsics=FILE or colour=none after the file "
+             "name";
+    relation.warning += (relation.warning.empty() ? "" : "; ") + words;
 }
 
 // By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse
@@ -62,11 +84,16 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
     }
     std::string fault;
     const auto topic = topicPose(source, fault);
+    const std::string tf = "tf between '" + depth.frame + "' and '" + colour.frame + "'";
     const auto frames = depth.frame != colour.frame ? frames_.pose(depth.frame, colour.frame) : std::nullopt;
     const std::string axes = frames ? frames_.axesWarning(depth.frame, colour.frame) : "";
     if (!frames) {
         const std::string moving = topic ? "" : frames_.whyMoving(depth.frame, colour.frame);
-        return {topic, topic ? "" : !fault.empty() || moving.empty() ? fault : "missing; " + moving};
+        return {topic,
+                topic                              ? ""
+                : !fault.empty() || moving.empty() ? fault
+                                                   : "missing; " + moving,
+                topic ? source->name : ""};
     }
     if (!topic) {
         std::string all;
@@ -74,21 +101,22 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
                                        frames_.twicePublished(depth.frame, colour.frame)}) {
             all += (all.empty() || one.empty() ? "" : "; ") + one;
         }
-        return {frames, all};
+        return {frames, all, tf};
     }
     if (nearlySame(*topic, *frames) || !axes.empty()) {
-        return {topic, ""};
+        return {topic, "", source->name};
     }
     if (nearlySame(inverse(*topic), *frames)) {
-        return {frames, ""};
+        return {frames, "", tf};
     }
     char apart[160];
     std::snprintf(apart, sizeof apart, "%.1f mm and %.2f degrees",
                   1e3 * glm::distance(topic->position, frames->position),
                   glm::degrees(turnBetween(*topic, *frames)));
-    return {topic, "the driver's topic depth_to_color, which is used, and tf between '" + depth.frame +
-                       "' and '" + colour.frame + "' differ by " + apart +
-                       "; extrinsics=FILE after the file name decides"};
+    return {topic,
+            "the driver's topic depth_to_color, which is used, and " + tf + " differ by " + apart +
+                "; extrinsics=FILE after the file name decides",
+            source->name};
 }
 
 // Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).

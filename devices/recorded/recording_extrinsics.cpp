@@ -5,20 +5,22 @@
 #include "engine/types/number_text.h"
 #include "engine/types/rotation_fault.h"
 
+#include <algorithm>
+#include <cmath>
+#include <glm/trigonometric.hpp>
+
 namespace fathom {
 
 namespace {
 
-// Lenses of one rig are not metres apart, as values of millimetres are, and see in one direction. node: has t
-// and q_xyzw.
+// node: has t and q_xyzw.
 void checkRig(const JsonField& node, const std::string& file, const Pose& colourTdepth) {
-    constexpr double kMaxApart = 1.0, kRounding = 1e-6;
-    if (const double apart = glm::length(colourTdepth.position); !(apart <= kMaxApart)) {
-        throw BadInput(file, node.at("t").path(), significant(apart, 4) + " m between the lenses",
-                       "at most 1 m; metres, not millimetres");
+    const std::optional<RigFault> fault = rigFault(colourTdepth);
+    if (fault && fault->turned) {
+        node.at("q_xyzw").refuse("x y z w, in this order, with " + fault->allowed);
     }
-    if ((colourTdepth.rotation * dvec3(0.0, 0.0, 1.0)).z < -kRounding) {
-        node.at("q_xyzw").refuse("x y z w, in this order, with optical axes within 90 degrees of each other");
+    if (fault) {
+        throw BadInput(file, node.at("t").path(), fault->value, fault->allowed);
     }
 }
 
@@ -34,6 +36,21 @@ Pose readPose(const JsonField& node) {
 }
 
 } // namespace
+
+std::optional<RigFault> rigFault(const Pose& colourTdepth) {
+    constexpr double kMaxApart = 1.0, kRounding = 1e-6;
+    if (const double apart = glm::length(colourTdepth.position); !(apart <= kMaxApart)) {
+        return RigFault{significant(apart, 4) + " m between the lenses",
+                        "at most 1 m; metres, not millimetres", false};
+    }
+    const double cosine = (colourTdepth.rotation * dvec3(0.0, 0.0, 1.0)).z;
+    if (cosine < -kRounding) {
+        const double angle = glm::degrees(std::acos(std::max(-1.0, cosine)));
+        return RigFault{significant(angle, 4) + " degrees between the optical axes",
+                        "optical axes within 90 degrees of each other", true};
+    }
+    return std::nullopt;
+}
 
 // A tf entry maps points of the common reference (the depth camera) to its stream: p_colour = R p_depth + t.
 // Found on a D435 recording: projected so, depth edges fall on colour edges (mean gradient 24 of 60); by the

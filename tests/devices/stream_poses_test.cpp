@@ -36,6 +36,24 @@ BagMaker twoFrames() {
     return maker;
 }
 
+// Colour at x [m] from depth, turned about y.
+BagMaker turnedRig(double x, double degrees, const std::string& encoding = "rgb8") {
+    BagMaker maker;
+    addStream(maker, "/camera/depth/image_raw", depthImage(500, "depth_optical"), {.frame = "depth_optical"});
+    ImageMessage colour = redImage("color_optical");
+    if (encoding == "mono8") {
+        colour = {.frame = "color_optical", .encoding = encoding, .pixels = filled(uint8_t{9})};
+    }
+    addStream(maker, "/camera/color/image_raw", colour,
+              {.frame = "color_optical", .k = {6.0, 6.0, 3.5, 2.5}});
+    Out link{Out().put(uint32_t{1}).bytes + stampedHeader(1.0, "depth_optical")};
+    const double half = degrees * std::acos(-1.0) / 360.0;
+    link.text("color_optical").put(x).put(0.0).put(0.0);
+    link.put(0.0).put(std::sin(half)).put(0.0).put(std::cos(half));
+    maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link.bytes);
+    return maker;
+}
+
 bool warns(const BagCamera& camera, const std::string& part) {
     const auto all = camera.warnings();
     return std::ranges::any_of(all,
@@ -133,4 +151,36 @@ TEST_CASE("Two transforms of one link of tf that nearly agree are one, and other
              "(-15.0, 0.0, 0.0) mm and at (-60.0, 0.0, 0.0) mm (allowed: ");
     lineSays(streamRefusal(folder, moving),
              "extrinsics: missing; tf has 'color_optical' in 'depth_optical' at ");
+}
+
+TEST_CASE("A pose of a bag that no lenses of one rig have is named with its source") {
+    const TemporaryFolder folder;
+    const std::string tf = "tf between 'depth_optical' and 'color_optical': ";
+    CHECK(warns(playStreams(folder, turnedRig(4.0, 0.0)),
+                tf + "4 m between the lenses (allowed: at most 1 m; metres, not millimetres)"));
+    CHECK(warns(playStreams(folder, turnedRig(0.0, 180.0)),
+                tf + "180 degrees between the optical axes (allowed: optical axes within 90 degrees"));
+    lineSays(
+        streamRefusal(folder, turnedRig(15.0, 0.0)),
+        ": extrinsics: " + tf +
+            "15 m between the lenses (allowed: at most 1 m; metres, not millimetres; or extrinsics=FILE or "
+            "colour=none after the file name)");
+    CHECK_FALSE(playStreams(folder, turnedRig(15.0, 0.0), {.colour = "none"}).info().hasColour);
+    const CameraInfo grey = playStreams(folder, turnedRig(15.0, 0.0, "mono8")).info();
+    CHECK_FALSE(grey.hasColour); // grey is not worth a refusal
+    BagMaker pair;               // P in millimetres
+    addStream(pair, "/stereo/depth/image_rect", depthImage(500), {.p = {7.0, 7.0, 3.5, 2.5}});
+    addStream(pair, "/stereo/right/image_rect_color", redImage(), {.p = {7.0, 7.0, 3.5, 2.5}, .tx = -840.0});
+    lineSays(streamRefusal(folder, pair), "P of the camera_info of /stereo/depth/image_rect and "
+                                          "/stereo/right/image_rect_color: 120 m between the lenses");
+}
+
+TEST_CASE("Poses of cameras side by side, converging or on one arm have no warning") {
+    const TemporaryFolder folder;
+    for (const auto& [x, degrees] : {std::pair(0.015, 0.0), {0.3, 30.0}, {0.95, -20.0}, {0.5, 85.0}}) {
+        const BagCamera camera = playStreams(folder, turnedRig(x, degrees));
+        CHECK_FALSE(warns(camera, "(allowed: "));
+        CHECK(camera.info().hasColour);
+    }
+    CHECK_FALSE(warns(playStreams(folder, turnedRig(4.0, 0.0, "mono8")), "between the lenses"));
 }
