@@ -39,6 +39,7 @@ private:
     void chooseUnit();
     const MessageTopic* unitTopic() const;
     double sensorUnit();
+    void warnOfUnit(const std::string& warning); // nothing if empty
     void watchChanges();
     std::string changed(uint64_t time);
     ValueSpan sampledMetres();

@@ -33,6 +33,7 @@ const MessageTopic* BagCamera::unitTopic() const {
 double BagCamera::sensorUnit() {
     const MessageTopic* topic = unitTopic();
     if (topic == nullptr && (choice_.statedUnit || !choice_.unreadScale.empty())) {
+        warnOfUnit(choice_.unitWarning);
         return choice_.statedUnit ? *choice_.statedUnit : throw BadInput(choice_.unreadScale);
     }
     if (topic == nullptr) {
@@ -57,11 +58,15 @@ double BagCamera::sensorUnit() {
     const std::string both = choice_.statedUnit ? unitsDiffer(options_.intrinsics.filename().string(),
                                                               *choice_.statedUnit, topic->name, unit)
                                                 : "";
-    if (!both.empty()) {
-        log::warn("{}: {}", file_->file().string(), both);
-        addWarning(both);
-    }
+    warnOfUnit(both);
     return unit;
+}
+
+void BagCamera::warnOfUnit(const std::string& warning) {
+    if (!warning.empty()) {
+        log::warn("{}: {}", file_->file().string(), warning);
+        addWarning(warning);
+    }
 }
 
 ValueSpan BagCamera::sampledMetres() {

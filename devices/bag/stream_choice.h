@@ -22,6 +22,7 @@ struct StreamChoice {
     std::string unread;                // image topics that may be colour but whose encoding is not read
     std::optional<double> statedUnit;  // [m] by the file of the lens
     std::string unreadScale;           // RecordingIntrinsics::unreadScale
+    std::string unitWarning;           // that of the file, if its unit counts
 };
 
 // Chooses the streams of a bag. One thread.

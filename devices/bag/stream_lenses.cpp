@@ -69,6 +69,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     choice.camera = given.camera;
     choice.statedUnit = given.scale;
     choice.unreadScale = given.unreadScale;
+    choice.unitWarning = given.unitWarning;
     std::ranges::copy(given.warnings, std::back_inserter(choice.warnings));
     choice.rangeImages = given.rangeImages;
     choice.camera.poseless = true;

@@ -62,6 +62,16 @@ std::string unitsDiffer(const std::string& lensFile, double ofLensFile, const st
            " m, which is used; scale=M after the recording's name gives another unit";
 }
 
+std::string twoScales(const JsonField& root, const std::string& file, double unit) {
+    const std::optional<OtherUnit> other = otherUnit(root, unit);
+    if (!other) {
+        return "";
+    }
+    return "the depth unit of " + file + " is " + significant(unit, 6) + " m, which is used, but its " +
+           other->field.path() + " is " + significant(other->field.finite(), 6) + ", a unit of " +
+           significant(other->unit, 6) + " m; remove one, or append scale=M to the recording's name";
+}
+
 void keepRecordedUnit(RecordingIntrinsics& given, const std::string& from,
                       const std::function<std::optional<double>()>& recorded) {
     std::optional<double> unit;

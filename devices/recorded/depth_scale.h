@@ -19,6 +19,8 @@ std::optional<double> scaleIn(const std::filesystem::path& file);
 // recording counts. Empty = they are one.
 std::string unitsDiffer(const std::string& lensFile, double ofLensFile, const std::string& recorded,
                         double ofRecorded);
+// A warning of a file that states this unit [m], and another one under another name; empty = it does not.
+std::string twoScales(const JsonField& root, const std::string& file, double unit);
 // For a file that replaces the lenses of a recording, in every layout: the unit that the recording states
 // counts, and otherwise that of the file. from: what states it. recorded: reads it; where that throws
 // BadInput, the scale of the file or scale=M is needed.

@@ -2,6 +2,7 @@
 #include "devices/recorded/foreign_field.h"
 
 #include "devices/recorded/name_words.h"
+#include "devices/recorded/source_options.h"
 
 #include <algorithm>
 #include <array>
@@ -179,6 +180,32 @@ bool namesScale(const std::string& key) {
     return key != kOwnScale && (isAny(plain, kWhole) || rate || (namesDepth(key) && holdsAny(plain, kKinds)));
 }
 
+// A field that by its name is a depth scale.
+struct NamedScale {
+    JsonField field;
+    std::string plain; // letters of its key
+    bool ofDepth;      // surely: also images and worlds have a scale
+};
+
+std::vector<NamedScale> namedScales(const JsonField& root) {
+    std::vector<JsonField> blocks{root};
+    for (const std::string& key : root.keys()) {
+        if (namesDepth(key)) { // its own fields, if it has some
+            blocks.push_back(root.at(key));
+        }
+    }
+    std::vector<NamedScale> all;
+    for (const JsonField& block : blocks) {
+        const bool inner = &block != &blocks.front();
+        for (const std::string& key : block.keys()) {
+            if (namesScale(key) || (inner && key == kOwnScale)) {
+                all.push_back({block.at(key), plainLetters(key), inner || namesDepth(key)});
+            }
+        }
+    }
+    return all;
+}
+
 // Or nothing of depth: 1 is one unit of the images' values.
 bool isMillimetres(const JsonField& scale) {
     constexpr std::array<std::string_view, 8> kTexts{"mm",         "millimetre",  "millimetres",
@@ -228,21 +255,27 @@ void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const
 }
 
 std::optional<JsonField> foreignScale(const JsonField& root) {
-    std::vector<JsonField> blocks{root};
-    for (const std::string& key : root.keys()) {
-        if (namesDepth(key)) { // its own fields, if it has some
-            blocks.push_back(root.at(key));
+    for (const NamedScale& scale : namedScales(root)) {
+        const bool size = scale.plain.find("resolution") != std::string::npos && !scale.field.isNumber();
+        if (!size && !isMillimetres(scale.field)) {
+            return scale.field;
         }
     }
-    for (const JsonField& block : blocks) {
-        const bool inner = &block != &blocks.front();
-        for (const std::string& key : block.keys()) {
-            const JsonField scale = block.at(key);
-            const bool size = plainLetters(key).find("resolution") != std::string::npos && !scale.isNumber();
-            const bool misplaced = inner && key == kOwnScale;
-            if ((namesScale(key) || misplaced) && !size && !isMillimetres(scale)) {
-                return scale;
-            }
+    return std::nullopt;
+}
+
+std::optional<OtherUnit> otherUnit(const JsonField& root, double unit) {
+    constexpr double kRounded = 0.01;
+    for (const NamedScale& scale : namedScales(root)) {
+        const double value = scale.ofDepth && scale.field.isNumber() ? scale.field.finite() : 0.0;
+        // "depth_resolution" may be a width, and "depth_shift" a distance.
+        const bool size = scale.plain.find("resolution") != std::string::npos,
+                   shift = scale.plain.find("shift") != std::string::npos;
+        const bool metres = value >= kFinestUnit && value <= kCoarsestUnit && !shift,
+                   perMetre = value >= 1.0 / kCoarsestUnit && value <= 1.0 / kFinestUnit && !size;
+        const double other = metres ? value : perMetre ? 1.0 / value : unit;
+        if (std::abs(other - unit) > kRounded * unit) {
+            return OtherUnit{scale.field, other};
         }
     }
     return std::nullopt;

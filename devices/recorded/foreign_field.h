@@ -26,4 +26,12 @@ void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const
 // millimetres or nothing.
 std::optional<JsonField> foreignScale(const JsonField& root);
 
+// A number under a name that is surely of a depth scale, metres per unit or units per metre, and tells
+// another unit [m] than this one, by over 1 %.
+struct OtherUnit {
+    JsonField field;
+    double unit; // [m]
+};
+std::optional<OtherUnit> otherUnit(const JsonField& root, double unit);
+
 } // namespace fathom

@@ -189,6 +189,7 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     }
     intrinsics.scale = statedScale(root, rule);
     intrinsics.unreadScale = intrinsics.scale ? "" : otherScale(root);
+    intrinsics.unitWarning = intrinsics.scale ? twoScales(root, intrinsics.file, *intrinsics.scale) : "";
     camera.metresPerUnit = intrinsics.scale.value_or(camera.metresPerUnit);
     const auto colourThere = findColour(root, "has_color", "has_colour");
     camera.hasColour = !colourThere || colourThere->boolean();

@@ -26,7 +26,8 @@ struct RecordingIntrinsics {
     // Why a depth scale under the name of another program is not read: a refusal where images need one.
     // Empty = there is none, or `scale` is stated, too.
     std::string unreadScale = {};
-    // A warning of 16-bit images whose recording states another unit than this file; empty = none.
+    // A warning of 16-bit images whose recording states another unit than this file, or of a file that states
+    // two; empty = none.
     std::string unitWarning = {};
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.

@@ -127,6 +127,40 @@ TEST_CASE("A bag's depth has the unit that the file of its lens states, unless s
     }
 }
 
+TEST_CASE("Two depth scales of one file that contradict each other have a warning with both") {
+    const TemporaryFolder folder;
+    const auto warnings = [&](const std::string& fields, std::optional<double> scale = {},
+                              const std::string& encoding = "16UC1") {
+        std::string all;
+        for (const std::string& line :
+             bagWith(folder, kBagLens + ", " + fields + "}", scale, encoding).warnings()) {
+            all += line + "\n";
+        }
+        return all;
+    };
+    const std::string own = R"("depth_scale_m_per_unit": 0.001, )",
+                      tum = R"("depth_scale_m_per_unit": 0.0002, )";
+    lineSays(warnings(own + R"("depth_factor": 5000)"),
+             "the depth unit of lens.json is 0.001 m, which is used, but its depth_factor is 5000, a unit of "
+             "0.0002 m; remove one, or append scale=M");
+    for (const std::string& fields :
+         {own + R"("png_depth_scale": 0.0002)", own + R"("depth_info": {"scale": 5000})",
+          tum + R"("depth_factor": 1000)", tum + R"("depth_unit": 0.001)"}) {
+        CAPTURE(fields);
+        lineSays(warnings(fields), "which is used, but its ");
+    }
+    for (const std::string& fields :
+         {own + R"("depth_factor": 1000)", tum + R"("depth_factor": 5000)",
+          own + R"("depth_scale": 0.0010000000474974513)", own + R"("depth_trunc": 3)",
+          own + R"("scale": 0.05)", own + R"("depth_shift": 0.02)", own + R"("depth_resolution": 640)",
+          own + R"("depth_scale": 1)", own + R"("depth_unit": "mm")", own + R"("depth_scale": null)"}) {
+        CAPTURE(fields);
+        CHECK(warnings(fields) == "");
+    }
+    CHECK(warnings(own + R"("depth_factor": 5000)", 0.0002) == "");
+    CHECK(warnings(own + R"("depth_factor": 5000)", {}, "32FC1") == "");
+}
+
 TEST_CASE("Distortion under the name of another program is refused unless it is zero") {
     for (const char* name : {"distCoeffs",
                              "distortionCoeff",
