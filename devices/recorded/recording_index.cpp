@@ -255,10 +255,12 @@ FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsi
             intrinsics.pairWithin, "depth_stamps_s and color_stamps_s");
     }
     const std::string other = likeAssociations(folder);
-    throw BadInput(folder.string(), "associations.txt",
-                   other.empty() ? "missing" : "missing; " + other + " is there",
-                   "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
-                   "depth.txt, and \"has_color\": false or colour=none after the folder name");
+    throw BadInput(
+        folder.string(), "associations.txt", other.empty() ? "missing" : "missing; " + other + " is there",
+        "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; or "
+        "intrinsics=FILE after the folder name, also its own intrinsics.json, which pairs images by "
+        "number; without colour depth.txt, and \"has_color\": false or colour=none after the "
+        "folder name");
 }
 
 } // namespace

@@ -176,11 +176,26 @@ bool isRecordingFolder(const fs::path& folder) {
     return fs::exists(folder / kOwnLens) || layoutOf(folder).read != nullptr || isMatrixFolder(folder);
 }
 
+bool hasStamps(const fs::path& lens) {
+    try {
+        return !readIntrinsics(lens, ScaleRule::Unchecked).depthStamps.empty();
+    } catch (const BadInput&) {
+        return false;
+    }
+}
+
+// Whether nothing but their numbers tells which images belong together. lens: a given one.
+bool hasNumbersOnly(const fs::path& folder, const fs::path& lens) {
+    return fs::exists(folder / "depth") && !hasIndex(folder) && !hasStamps(lens) &&
+           !hasStamps(folder / kOwnLens);
+}
+
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
     const bool given = !options.intrinsics.empty(), own = fs::exists(folder / kOwnLens);
     const fs::path intrinsics = given ? options.intrinsics : folder / kOwnLens;
     const KnownLayout known = layoutOf(folder);
-    if (own || (given && hasIndex(folder))) {
+    const bool numbered = given && known.read == nullptr && hasNumbersOnly(folder, intrinsics);
+    if ((own && !numbered) || (given && hasIndex(folder))) {
         const fs::path recorded = own                        ? folder / kOwnLens
                                   : known.read == readOpen3d ? folder / known.mark
                                                              : fs::path();
@@ -189,7 +204,9 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (!given && known.read == readOpen3d && hasIndex(folder, options.depthOnly())) {
         return readIndexedOpen3d(folder, folder / known.mark, options);
     }
-    LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
+    const bool replaced = own && fs::weakly_canonical(intrinsics) != fs::weakly_canonical(folder / kOwnLens);
+    LayoutRequest request{folder, std::nullopt, options.depthOnly(),
+                          folder / (replaced ? kOwnLens : known.mark)};
     if (given) {
         request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
         request.depthOnly |= !request.lens->camera.hasColour;

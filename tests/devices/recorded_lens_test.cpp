@@ -60,6 +60,30 @@ TEST_CASE("Images without a lens file are refused with the option that names one
           std::vector<uint16_t>{500});
 }
 
+TEST_CASE(
+    "Images without an index pair by number with a given lens, also with that of their intrinsics.json") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/000000.png", "color/000000.png", 500);
+    addPair(folder, "depth/000001.png", "color/000001.png", 600);
+    folder.write("intrinsics.json", kSmallIntrinsics);
+    lineSays(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name, also its own "
+                                              "intrinsics.json, which pairs images by number");
+    std::string fifths = kSmallIntrinsics;
+    folder.write("intrinsics.json", fifths.replace(fifths.find("0.001"), 5, "0.0002"));
+    const std::filesystem::path own = folder.path() / "intrinsics.json", other = folder.path() / "lens.json";
+    CHECK(playedDepths(folder.path(), {.intrinsics = own}) == std::vector<uint16_t>{500, 600});
+    folder.write("lens.json", R"({"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2})");
+    CHECK(playedDepths(folder.path(), {.intrinsics = other}) == std::vector<uint16_t>{500, 600});
+    const RecordedCamera camera(folder.path(), {.intrinsics = other});
+    CHECK(camera.info().depth.fx == 6.0);
+    CHECK(camera.info().metresPerUnit == doctest::Approx(0.0002)); // that of intrinsics.json
+    std::string stamped = kSmallIntrinsics; // its stamps are the index, whatever lens is given
+    folder.write(
+        "intrinsics.json",
+        stamped.insert(stamped.find('{') + 1, R"("depth_stamps_s": [0, 0.1], "color_stamps_s": [0, 0.1], )"));
+    lineSays(recordingRefusal(folder.path(), {.intrinsics = other}), "associations.txt: missing");
+}
+
 TEST_CASE("Folders of Nerfstudio are refused with the name of their lens file, and play with a lens") {
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "images/0.png", 500);
