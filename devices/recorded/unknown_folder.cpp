@@ -90,13 +90,13 @@ bool holdsDepth(const fs::path& folder, bool named) {
     return false;
 }
 
-// A file that by its name may hold the lens in a form that is not read; empty = none.
-std::string lensLikeFile(const fs::path& folder) {
-    constexpr std::array<std::string_view, 7> kEndings{".json", ".txt", ".yaml", ".yml",
-                                                       ".xml",  ".npy", ".csv"};
-    constexpr std::array<std::string_view, 10> kWords{"lens",        "intrinsic", "intrinsics", "calib",
-                                                      "calibration", "camera",    "cameras",    "cam",
-                                                      "transforms",  "k"};
+// The name of a file that by it may hold the lens in a form that is not read; empty = none.
+std::string lensLikeIn(const fs::path& folder) {
+    constexpr std::array<std::string_view, 8> kEndings{".json", ".txt", ".yaml", ".yml",
+                                                       ".xml",  ".npy", ".csv",  ".bin"};
+    constexpr std::array<std::string_view, 11> kWords{"lens",        "intrinsic",  "intrinsics", "calib",
+                                                      "calibration", "camera",     "cameras",    "cam",
+                                                      "camchain",    "transforms", "k"};
     constexpr std::array<std::string_view, 4> kPoses{"pose", "poses", "trajectory", "extrinsics"};
     const auto isAny = [](const std::vector<std::string>& words, const auto& of) {
         return std::ranges::any_of(
@@ -108,9 +108,23 @@ std::string lensLikeFile(const fs::path& folder) {
         const std::string name = entry.path().filename().string();
         const std::vector<std::string> words = nameWords(entry.path().stem().string());
         const bool like = endsAs(entry.path(), kEndings) && isAny(words, kWords) && !isAny(words, kPoses);
-        first = like && (first.empty() || name < first) ? name : first;
+        const bool record3d = name == "metadata" && fs::is_regular_file(entry.path(), failed);
+        first = (like || record3d) && (first.empty() || name < first) ? name : first;
     }
     return first;
+}
+
+// The same with its path from the folder: in it, in sparse/0/ of COLMAP, or one level below.
+std::string lensLikeFile(const fs::path& folder) {
+    std::vector<fs::path> places{folder, folder / "sparse/0", folder / "colmap/sparse/0"};
+    const std::vector<fs::path> below = entriesOf(folder).folders;
+    places.insert(places.end(), below.begin(), below.end());
+    for (const fs::path& place : places) {
+        if (const std::string name = lensLikeIn(place); !name.empty()) {
+            return (place / name).lexically_relative(folder).string();
+        }
+    }
+    return "";
 }
 
 } // namespace

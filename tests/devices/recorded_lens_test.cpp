@@ -84,6 +84,17 @@ TEST_CASE(
     lineSays(recordingRefusal(folder.path(), {.intrinsics = other}), "associations.txt: missing");
 }
 
+TEST_CASE("Files of lenses of COLMAP, Kalibr and Record3D are named where no lens is read") {
+    for (const char* name : {"sparse/0/cameras.txt", "sparse/0/cameras.bin", "camchain.yaml", "metadata",
+                             "calibration/camchain-imucam.yaml"}) {
+        const TemporaryFolder folder;
+        addPair(folder, "depth/0.png", "rgb/0.png", 500);
+        folder.write(name, "{}");
+        lineSays(recordingRefusal(folder.path()),
+                 "missing; " + std::string(name) + " is there, which is not read by itself");
+    }
+}
+
 TEST_CASE("Folders of Nerfstudio are refused with the name of their lens file, and play with a lens") {
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "images/0.png", 500);
