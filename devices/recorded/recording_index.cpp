@@ -65,11 +65,11 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
             const bool colour = parseStamp(words[0], entry.colourStamp);
             entry.fault =
                 "line " + std::to_string(line.number) + " " + stampFault(line.text, words[colour ? 2 : 0]);
-        } else if (!staysInside(words[1]) || !staysInside(words[3])) {
+        } else if (!staysInside(pathOf(folder, words[1])) || !staysInside(pathOf(folder, words[3]))) {
             entry.fault = "line " + std::to_string(line.number) + " points outside the recording's folder";
         } else {
-            entry.colour = folder / words[1];
-            entry.depth = folder / words[3];
+            entry.colour = folder / pathOf(folder, words[1]);
+            entry.depth = folder / pathOf(folder, words[3]);
         }
         index.push_back(std::move(entry));
     }

@@ -15,9 +15,10 @@ namespace fathom {
 namespace {
 
 // Of a line of "t path"; empty = it is one.
-std::string lineFault(const std::string& line, const std::vector<std::string_view>& words, double& stamp) {
+std::string lineFault(const std::filesystem::path& folder, const std::string& line,
+                      const std::vector<std::string_view>& words, double& stamp) {
     if (words.size() == 2 && parseStamp(words[0], stamp)) {
-        return staysInside(words[1]) ? "" : "points outside the recording's folder";
+        return staysInside(pathOf(folder, words[1])) ? "" : "points outside the recording's folder";
     }
     const std::string columns = columnFault(line);
     const bool comma = words.size() == 2 && words[0].find(',') != std::string_view::npos;
@@ -66,6 +67,15 @@ std::string stampFault(std::string_view line, std::string_view word) {
                                                     : "has a stamp with a comma; numbers have decimal points";
 }
 
+std::filesystem::path pathOf(const std::filesystem::path& folder, std::string_view word) {
+    std::string name(word);
+    std::error_code failed;
+    if (name.find('\\') != std::string::npos && !std::filesystem::exists(folder / name, failed)) {
+        std::ranges::replace(name, '\\', '/');
+    }
+    return name;
+}
+
 std::vector<StampedFile> readStampedFiles(const std::filesystem::path& folder, const char* name) {
     constexpr size_t kShown = 80; // characters
     std::vector<StampedFile> files;
@@ -73,9 +83,9 @@ std::vector<StampedFile> readStampedFiles(const std::filesystem::path& folder, c
     for (TextLine& line : readDataLines(folder / name)) {
         const std::vector<std::string_view> words = splitWords(line.text);
         double stamp = 0.0;
-        const std::string fault = lineFault(line.text, words, stamp);
+        const std::string fault = lineFault(folder, line.text, words, stamp);
         if (fault.empty()) {
-            files.push_back({stamp, folder / words[1]});
+            files.push_back({stamp, folder / pathOf(folder, words[1])});
         } else if (SkippedLines& lines = skipped[fault]; lines.count++ == 0) {
             lines.first = std::move(line);
         }

@@ -21,6 +21,9 @@ std::string columnFault(std::string_view line);
 // Why this word of a line is no stamp.
 std::string stampFault(std::string_view line, std::string_view word);
 
+// The path that a line names, with the backslashes of Windows as slashes unless a file has them in its name.
+std::filesystem::path pathOf(const std::filesystem::path& folder, std::string_view word);
+
 // "t path" per line of an index in the folder. Other lines are skipped: one warning per cause shows the first
 // line and counts the others. Throws BadInput for a file that cannot be read.
 std::vector<StampedFile> readStampedFiles(const std::filesystem::path& folder, const char* name);

@@ -181,3 +181,18 @@ TEST_CASE("A folder whose depth images lie elsewhere than in depth/ is refused w
         CHECK(refusal("disp/1.png", lens).find("depth images: in") == std::string::npos);
     }
 }
+
+TEST_CASE("An index with the backslashes of Windows names the same images") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    const std::vector<uint16_t> both{1000, 1001};
+    folder.write("associations.txt",
+                 "0.0 rgb\\0.png 0.0 depth\\0.png\n0.1 .\\rgb\\1.png 0.1 .\\depth\\1.png\n");
+    CHECK(playedDepths(folder.path()) == both);
+    std::filesystem::remove(folder.path() / "associations.txt");
+    folder.write("depth.txt", "0.0 depth\\0.png\n0.1 depth\\1.png\n0.2 ..\\2.png\n");
+    folder.write("rgb.txt", "0.0 rgb\\0.png\n0.1 rgb\\1.png\n");
+    CHECK(playedDepths(folder.path()) == both); // the third one points outside
+    writeDepth(folder.path() / "depth\\0.png", kSmallWidth, kSmallHeight, 700); // a name with a backslash
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{700, 1001});
+}
