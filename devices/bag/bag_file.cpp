@@ -8,6 +8,7 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace fathom {
 
@@ -39,11 +40,9 @@ BagFile::BagFile(const std::filesystem::path& file)
     , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
     std::error_code failed;
     size_ = std::filesystem::file_size(file, failed);
-    std::string magic(sizeof kBagMagic - 1, ' ');
-    if (failed || !in_.is_open() || !in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
-        magic != kBagMagic) {
-        throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
-                       "a ROS 1 bag of version 2.0");
+    if (const std::string fault = failed || !in_.is_open() ? whyUnreadable(file) : magicFault();
+        !fault.empty()) {
+        throw BadInput(file.string(), "format", fault, "a ROS 1 bag of version 2.0");
     }
     uint64_t chunksAt = 0, indexAt = 0;
     std::string lost = "no index";
@@ -66,6 +65,25 @@ BagFile::BagFile(const std::filesystem::path& file)
     if (!lost.empty()) {
         scan(chunksAt, indexAt < size_ ? indexAt : 0, lost);
     }
+}
+
+// Reads the first line; why the file is no bag that is read, empty = it is one.
+std::string BagFile::magicFault() {
+    constexpr std::string_view kAnyVersion = "#ROSBAG V", kMagic = kBagMagic;
+    std::string magic(kMagic.size(), ' ');
+    in_.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+    if (size_ == 0) {
+        return "empty";
+    }
+    if (in_ && magic == kMagic) {
+        return "";
+    }
+    if (!magic.starts_with(kAnyVersion)) {
+        return "no bag";
+    }
+    std::string version = magic.substr(kAnyVersion.size());
+    version.erase(std::min(version.find_first_of("\r\n "), version.size()));
+    return "a bag of version " + printable(version) + ", which rosbag fix of ROS 1 converts";
 }
 
 std::vector<uint8_t> BagFile::readBlock() {

@@ -33,6 +33,7 @@ private:
         bool empty = false, cut = false; // by the file's end
     };
 
+    std::string magicFault();
     Record readRecord();
     std::vector<uint8_t> readBlock();
     std::optional<Record> nextOfIndex(bool complete);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags whose recorder was stopped before it wrote the index.
+#include "devices/bag/bag_file.h"
 #include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
 
@@ -109,4 +110,18 @@ TEST_CASE("A bag without an index and without a message is rejected with the fau
     folder.write("a.bag", BagMaker().chunks("none"));
     lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }),
              "a.bag: index: no index: the bag was not closed, and no whole chunk holds a message (allowed: ");
+}
+
+TEST_CASE("An empty bag and one of an older version are refused as what they are") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](const std::string& bytes) {
+        folder.write("a.bag", bytes);
+        return testing::refusalOf([&] { BagFile(folder.path() / "a.bag"); });
+    };
+    const std::string allowed = " (allowed: a ROS 1 bag of version 2.0)";
+    lineSays(refusal(""), "a.bag: format: empty" + allowed);
+    lineSays(refusal("#ROSBAG V1.2\nmore"),
+             "a.bag: format: a bag of version 1.2, which rosbag fix of ROS 1 converts" + allowed);
+    lineSays(refusal("#ROSRECORD V1.1\n"), "a.bag: format: no bag" + allowed);
+    lineSays(refusal("x"), "a.bag: format: no bag" + allowed);
 }
