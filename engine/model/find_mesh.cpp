@@ -51,6 +51,18 @@ MeshName partsOf(std::string name) {
     return {"", name};
 }
 
+// "https://" of an address that is no file's; empty = none.
+std::string schemeOf(const std::string& name) {
+    constexpr std::string_view kSign = "://";
+    const size_t sign = name.find(kSign);
+    const std::string scheme = sign == std::string::npos ? "" : name.substr(0, sign);
+    const bool letters = std::ranges::all_of(
+        scheme, [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '.' || c == '-'; });
+    return !letters || scheme.empty() || scheme == "package" || scheme == "model" || scheme == "file"
+               ? ""
+               : scheme + std::string(kSign);
+}
+
 bool sameButCapitals(const std::string& a, const std::string& b) {
     return std::ranges::equal(
         a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
@@ -133,6 +145,12 @@ public:
                     break;
                 }
             }
+        }
+        if (const std::string scheme = schemeOf(name_); !scheme.empty()) {
+            throw ShapeRefused{
+                "mesh '" + excerpt(name_) + "' is an address of " + scheme,
+                "a file on this machine: download it, and name that file; package://, model:// "
+                "and file:// are read"};
         }
         throw ShapeRefused{
             "mesh '" + excerpt(name_) + "' not found; looked for " + excerpt(looked_, 1000),

@@ -2,8 +2,11 @@
 #include "engine/model/mesh_file.h"
 
 #include "engine/model/import_triangles.h"
+#include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/parse_number.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
@@ -68,9 +71,22 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     return mesh;
 }
 
+// A .dae may state a unit of nothing, which leaves no area.
+void checkDaeUnit(const std::string& file) {
+    const std::string text = endingOf(file) == ".dae" ? readFileAtMost(file, kLargestMesh).value_or("") : "";
+    for (XmlTags tags(text); tags.next();) {
+        const std::string metre = tags.tag().name == "unit" ? xmlAttribute(tags.tag().text, "meter") : "";
+        double value = 1.0;
+        if (!metre.empty() && parseWhole(metre, value) && !(value > 0.0)) {
+            throw BadInput(file, "unit", "meter=\"" + printable(metre) + "\"", "metres per unit, above 0");
+        }
+    }
+}
+
 // Returns the extent.
 double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrdf) {
     if (mesh.triangles.empty()) {
+        checkDaeUnit(file);
         throw BadInput(file, "triangles", "none with an area", "at least 1");
     }
     const dvec3 size = mesh.high() - mesh.low();

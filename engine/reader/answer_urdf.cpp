@@ -155,6 +155,10 @@ std::string faultOf(const std::vector<std::string>& errors, const std::string& t
     if (errors.empty() || named == errors.begin()) {
         return errors.empty() ? "not understood" : errors[0];
     }
+    if (errors[0].find("'robot' element") != std::string::npos &&
+        text.find("<!DOCTYPE") != std::string::npos) {
+        return "hidden by <!DOCTYPE ...>, which is not read: remove it, and write the values of its entities";
+    }
     return errors[0] + (named == errors.end() ? mimicWith(errors[0], text) : "; " + *named);
 }
 

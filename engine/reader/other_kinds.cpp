@@ -95,6 +95,10 @@ void refuseOtherKinds(const std::filesystem::path& file, const std::string& text
                 refuse(file, kind.is, kind.instead);
             }
         }
+        if (root && name.ends_with(":robot")) {
+            throw BadInput(file.string(), "robot", "<" + std::string(name) + ">",
+                           "<robot>, without the prefix of a namespace");
+        }
         if (name == "robot" && tags.path() != "" && tags.path().find("robot") == std::string_view::npos) {
             throw BadInput(file.string(), "robot", "<robot> inside of <" + std::string(tags.path()) + ">",
                            "a file whose outermost element is <robot>");

@@ -195,6 +195,17 @@ TEST_CASE("A missing mesh names the places that were searched and the key that a
     CHECK(refusal.find("arm.meshes names the folder") != std::string::npos);
 }
 
+TEST_CASE("A mesh on the web is named as such, with the names that are read") {
+    for (const std::string scheme : {"https://", "omniverse://"}) {
+        const std::string name = scheme + "example.org/m.stl";
+        const std::string refusal = urdfRefusal("<link name='a'><collision><geometry><mesh filename='" +
+                                                name + "'/></geometry></collision></link>");
+        CAPTURE(refusal);
+        CHECK(refusal.find("link a: mesh '" + name + "' is an address of " + scheme +
+                           " (allowed: a file on this machine: download it") != std::string::npos);
+    }
+}
+
 TEST_CASE("Among frames of one name the bare one behind the others is the tip, and a finger may be short") {
     const std::string hand = ballLink("gripper_link") +
                              "<link name='ee_gripper_link'><inertial><mass value='0.001'/><inertia ixx='1' "

@@ -26,10 +26,12 @@ std::string refusalOfMesh(const std::filesystem::path& file, const MeshOptions& 
 }
 
 // `nodes` nodes that all reference one mesh of 99 999 corners.
-void writeCopies(const std::filesystem::path& file, int nodes) {
+void writeCopies(const std::filesystem::path& file, int nodes, const std::string& asset = "") {
     std::ofstream out(file);
     out << "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
-           "version='1.4.1'><library_geometries><geometry id='g'><mesh><source id='p'>"
+           "version='1.4.1'>"
+        << asset
+        << "<library_geometries><geometry id='g'><mesh><source id='p'>"
            "<float_array id='pa' count='9'>0 0 0 0.1 0 0 0 0.1 0</float_array><technique_common>"
            "<accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"
            "<param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common>"
@@ -216,6 +218,17 @@ TEST_CASE("A mesh that needs too much memory is rejected, and copies are counted
         importTriangles(file, {.mostMemory = 200 << 20}); // the copies would take 2400 MB
     CHECK(many.fault == "over 6000000 corners");
     CHECK(many.mesh.points.empty());
+}
+
+TEST_CASE("A .dae whose unit is 0 is rejected with the unit") {
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "unit.dae";
+    writeCopies(file, 1, "<asset><unit meter='0' name='metre'/></asset>");
+    CHECK(refusalOfMesh(file) == file.string() + ": unit: meter=\"0\" (allowed: metres per unit, above 0)");
+    for (const char* good : {"<asset><unit meter='1'/></asset>", "<asset><unit name='metre'/></asset>", ""}) {
+        writeCopies(file, 1, good);
+        CHECK(refusalOfMesh(file) == "");
+    }
 }
 
 TEST_CASE("Distance and winding agree with a box's formula inside, outside and where two boxes overlap") {

@@ -39,6 +39,10 @@ TEST_CASE("A file that is no robot is named as what it is, with what to give ins
               "a COLLADA file (allowed: a URDF or MJCF; a mesh is named in one)"},
              {"<model><robot name='r'>" + ballLink("a") + "</robot></model>",
               "<robot> inside of <model> (allowed: a file whose outermost element is <robot>)"},
+             {"<r:robot xmlns:r='urdf' name='x'/>",
+              "<r:robot> (allowed: <robot>, without the prefix of a namespace)"},
+             {"<!DOCTYPE robot [<!ENTITY r '0.1'>]><robot name='r'>" + ballLink("a") + "</robot>",
+              "hidden by <!DOCTYPE ...>, which is not read: remove it, and write the values of its entities"},
              {"<sdf version='1.6'/>", "an SDF" + instead},
          }) {
         const auto &text = given.first, &says = given.second;
