@@ -44,8 +44,10 @@ void printNotes(const Scene& scene, const CameraInfo& camera) {
             std::cout << "note    " << note << "\n";
         }
     }
-    for (const std::string& dead : deadGates(scene, camera)) {
-        std::cout << "warning " << dead << "\n";
+    for (const auto& warnings : {hueNotes(scene), deadGates(scene, camera)}) {
+        for (const std::string& warning : warnings) {
+            std::cout << "warning " << warning << "\n";
+        }
     }
 }
 

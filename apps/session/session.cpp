@@ -155,8 +155,10 @@ Session::Session(const SessionOptions& asked, const GlobalOptions& global, const
     , answers(cycles) {
     clock = std::make_unique<ClockKeeper>(global, cycles.facts());
     edits.takeUncertainty(*camera);
-    for (const std::string& note : unusedKeys(scene)) {
-        log::warn("{}", note);
+    for (const auto& notes : {unusedKeys(scene), hueNotes(scene)}) {
+        for (const std::string& note : notes) {
+            log::warn("{}", note);
+        }
     }
 }
 

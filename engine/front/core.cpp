@@ -67,11 +67,11 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
              })
     , firstDepth_(haptic.scene, camera)
     , checked_(!haptic.scene.hasPoints()) {
-    for (const std::string& note : unusedKeys(haptic.scene)) {
-        log::warn("{}", note);
-    }
-    for (const std::string& dead : deadGates(haptic.scene, camera)) {
-        log::warn("{}", dead);
+    for (const auto& notes :
+         {unusedKeys(haptic.scene), hueNotes(haptic.scene), deadGates(haptic.scene, camera)}) {
+        for (const std::string& note : notes) {
+            log::warn("{}", note);
+        }
     }
     for (const std::string& line : forceWarnings(haptic.scene)) {
         log::warn("{}", line);

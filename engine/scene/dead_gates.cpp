@@ -94,6 +94,24 @@ std::vector<std::string> unusedKeys(const Scene& scene) {
     return notes;
 }
 
+std::vector<std::string> hueNotes(const Scene& scene) {
+    std::vector<std::string> notes;
+    for (const FixtureClass& f : scene.fixtures) {
+        if (!f.isPoints() || !f.hue || f.name.empty()) {
+            continue;
+        }
+        const auto [lo, hi] = *f.hue;
+        const std::string named = "fixture '" + f.name + "': hue " + print("[%.6g, %.6g]", lo, hi);
+        if (lo == hi) {
+            notes.push_back(named + " passes one hue only, not a range");
+        } else if (std::max(lo, hi) <= 1.0) {
+            notes.push_back(named + " is in degrees, 0 to 360" +
+                            print("; if it is a share of 1, give [%.6g, %.6g]", 360.0 * lo, 360.0 * hi));
+        }
+    }
+    return notes;
+}
+
 std::vector<std::string> equalityNotes(const Scene& scene) {
     std::vector<std::string> notes;
     for (const FixtureClass& f : scene.fixtures) {

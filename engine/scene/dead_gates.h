@@ -19,6 +19,9 @@ std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera)
 // defaults. Not rejected: the window keeps them when it changes a role.
 std::vector<std::string> unusedKeys(const Scene& scene);
 
+// One sentence per class whose hues are one number, or shares of 1 rather than degrees as in other programs.
+std::vector<std::string> hueNotes(const Scene& scene);
+
 // One sentence per line and axis: a guidance role suggests a button and the limits of guidance_pull, and
 // neither applies.
 std::vector<std::string> equalityNotes(const Scene& scene);

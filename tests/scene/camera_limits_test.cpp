@@ -129,6 +129,27 @@ TEST_CASE("Keys of the other role are named per class, unless they equal the def
                                    "effect with role forbidden, only with guidance"});
 }
 
+TEST_CASE("Hues that are shares of 1 or one number are named, and ranges of degrees are not") {
+    const auto notes = [](const std::string& gate) {
+        const SceneFile file("fixtures: [{name: valve, role: forbidden, " + gate + "}]\n" + kTool);
+        std::string all;
+        for (const std::string& note : hueNotes(loadScene(file.path()))) {
+            all += note + "\n";
+        }
+        return all;
+    };
+    CHECK(
+        notes("hue: [0.95, 0.05]") ==
+        "fixture 'valve': hue [0.95, 0.05] is in degrees, 0 to 360; if it is a share of 1, give [342, 18]\n");
+    CHECK(notes("hue: [0, 1]") != "");
+    CHECK(notes("hue: [120, 120]") == "fixture 'valve': hue [120, 120] passes one hue only, not a range\n");
+    for (const char* good : {"hue: [345, 20]", "hue: [0, 20]", "hue: [359, 1]", "hue: [0.5, 12]",
+                             "radius: 0.04", "saturation: [0.5, 1]", "lightness: [0, 1]"}) {
+        CAPTURE(good);
+        CHECK(notes(good) == "");
+    }
+}
+
 TEST_CASE("An image that a device cannot read is rejected with the decimation that makes it small enough") {
     constexpr uint32_t kTexels = 1u << 16; // the least that Vulkan guarantees
     constexpr uint64_t kBytes = 1u << 27;
