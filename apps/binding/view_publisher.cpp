@@ -61,17 +61,25 @@ fathom_door_fixture rowOf(const Shape& shape) {
     return row;
 }
 
+// Copies of the head, with the share of each; one also when there is nothing to send.
+template <class T>
+ViewSocket::List<T> inParts(const T& head, uint32_t most) {
+    const uint32_t parts = std::max(1u, (head.total + most - 1) / most);
+    auto list = std::make_shared<std::vector<T>>(parts, head);
+    for (uint32_t i = 0; i < parts; ++i) {
+        T& part = (*list)[i];
+        part.first = i * most;
+        part.count = std::min(most, head.total - part.first);
+    }
+    return list;
+}
+
 } // namespace
 
 void ViewPublisher::step(const TickRow& row) {
     if (ticks_++ % kPollEvery == 0) {
-        const bool newcomer = endpoint_.poll();
-        if (newcomer) {
-            sendRegions();
-        }
-        if (newcomer || shapesDiffer()) {
-            sendFixtures();
-        }
+        endpoint_.poll();
+        offerNews();
     }
     if (!endpoint_.watched()) {
         return;
@@ -96,10 +104,13 @@ void ViewPublisher::step(const TickRow& row) {
 
 void ViewPublisher::frame(const HostFixtures& set) {
     set_ = &set;
-    if (set.generation != sent_) {
-        sendRegions();
-        sendFixtures();
-    }
+    offerNews();
+}
+
+void ViewPublisher::forget() noexcept {
+    set_ = nullptr;
+    offered_ = 0;
+    endpoint_.offer(ViewSocket::List<fathom_door_regions>());
 }
 
 void ViewPublisher::setShapes(std::span<const Shape> shapes) {
@@ -113,29 +124,39 @@ bool ViewPublisher::shapesDiffer() {
     return shapesChanged_;
 }
 
-void ViewPublisher::sendRegions() noexcept {
-    if (set_ == nullptr || !endpoint_.watched()) {
+void ViewPublisher::offerNews() {
+    if (!endpoint_.watched()) {
         return;
     }
-    const RegionSpheres& spheres = set_->spheres;
-    regions_.frame = set_->frame;
-    regions_.generation = sent_ = set_->generation;
-    copy(set_->origin, regions_.origin);
-    regions_.total = static_cast<uint32_t>(spheres.size());
-    regions_.first = 0;
-    do { // also send an empty set
-        regions_.count = std::min<uint32_t>(FATHOM_DOOR_SPHERES, regions_.total - regions_.first);
-        for (uint32_t i = 0; i < regions_.count; ++i) {
-            const size_t at = regions_.first + i;
-            regions_.spheres[i] = {spheres.x[at], spheres.y[at], spheres.z[at], spheres.radius[at],
-                                   spheres.fixture[at]};
-        }
-        endpoint_.send(regions_);
-        regions_.first += regions_.count;
-    } while (regions_.first < regions_.total);
+    const bool newSet = set_ != nullptr && set_->generation != offered_;
+    if (newSet) {
+        offerRegions();
+        offered_ = set_->generation;
+    }
+    if (newSet || shapesDiffer()) {
+        offerFixtures();
+    }
 }
 
-void ViewPublisher::sendFixtures() {
+void ViewPublisher::offerRegions() {
+    const RegionSpheres& spheres = set_->spheres;
+    fathom_door_regions head{};
+    head.frame = set_->frame;
+    head.generation = set_->generation;
+    copy(set_->origin, head.origin);
+    head.total = static_cast<uint32_t>(spheres.size());
+    const auto parts = inParts(head, FATHOM_DOOR_SPHERES);
+    for (fathom_door_regions& part : *parts) {
+        for (uint32_t i = 0; i < part.count; ++i) {
+            const size_t at = part.first + i;
+            part.spheres[i] = {spheres.x[at], spheres.y[at], spheres.z[at], spheres.radius[at],
+                               spheres.fixture[at]};
+        }
+    }
+    endpoint_.offer(parts);
+}
+
+void ViewPublisher::offerFixtures() {
     rows_.clear();
     {
         const std::lock_guard lock(mutex_);
@@ -143,20 +164,19 @@ void ViewPublisher::sendFixtures() {
                        [](const Shape& shape) { return rowOf(shape); });
         shapesChanged_ = false;
     }
+    fathom_door_fixtures head{};
     if (set_ != nullptr) {
         std::transform(set_->guidance.begin(), set_->guidance.end(), std::back_inserter(rows_),
                        [](const GuidancePose& pose) { return rowOf(pose); });
-        fixtures_.frame = set_->frame;
-        fixtures_.generation = set_->generation;
+        head.frame = set_->frame;
+        head.generation = set_->generation;
     }
-    fixtures_.total = static_cast<uint32_t>(rows_.size());
-    fixtures_.first = 0;
-    do { // also send when there is none
-        fixtures_.count = std::min<uint32_t>(FATHOM_DOOR_ROWS, fixtures_.total - fixtures_.first);
-        std::copy_n(rows_.begin() + fixtures_.first, fixtures_.count, fixtures_.rows);
-        endpoint_.send(fixtures_);
-        fixtures_.first += fixtures_.count;
-    } while (fixtures_.first < fixtures_.total);
+    head.total = static_cast<uint32_t>(rows_.size());
+    const auto parts = inParts(head, FATHOM_DOOR_ROWS);
+    for (fathom_door_fixtures& part : *parts) {
+        std::copy_n(rows_.begin() + part.first, part.count, part.rows);
+    }
+    endpoint_.offer(parts);
 }
 
 } // namespace fathom

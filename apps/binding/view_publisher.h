@@ -19,24 +19,23 @@ public:
     void step(const TickRow& row) override;
     void frame(const HostFixtures& set) override;
     void setShapes(std::span<const Shape> shapes) override;
-    void forget() noexcept override { set_ = nullptr; }
+    void forget() noexcept override;
 
     const ViewSocket& endpoint() const noexcept { return endpoint_; }
 
 private:
-    void sendRegions() noexcept;
-    void sendFixtures();
-    bool shapesDiffer(); // true when the shapes differ from those sent
+    void offerNews();
+    void offerRegions();
+    void offerFixtures();
+    bool shapesDiffer(); // true when the shapes differ from those offered
 
     static constexpr uint32_t kPollEvery = 16; // ticks
 
     ViewSocket endpoint_;
     const HostFixtures* set_ = nullptr;
-    uint64_t sent_ = 0; // generation of the last set that was sent
+    uint64_t offered_ = 0; // generation of the newest set that was offered
     uint32_t ticks_ = 0;
     fathom_door_state state_{};
-    fathom_door_regions regions_{};
-    fathom_door_fixtures fixtures_{};
     std::vector<fathom_door_fixture> rows_;
     std::mutex mutex_; // guards the two members below
     std::vector<Shape> shapes_;

@@ -17,7 +17,11 @@
  * - A packet with a wrong size, magic, version or kind ends the connection; its content is not used.
  * - View socket (STATE, REGIONS, FIXTURES): the engine listens, up to four observers connect and only
  *   receive: fathom_door_state once per tick, and as many fathom_door_regions and fathom_door_fixtures as a
- *   fixture set needs. A slow observer loses packets (check `sequence`); the engine never waits. */
+ *   fixture set needs. The engine never waits.
+ * - Observers: the parts of a set arrive complete and in order, from `first` = 0 up to `total`, between
+ *   states and over several ticks if needed. A slow observer skips whole sets: after one that has begun, the
+ *   newest follows. An unchanged set is sent once. Only states are lost when an observer does not read; each
+ *   is a gap in `sequence`. */
 #pragma once
 
 #include <stdint.h>
@@ -53,7 +57,7 @@ struct fathom_door_header {
     uint16_t kind;     /**< of the packet */
     uint32_t size;     /**< [bytes] sizeof the struct of that kind, header included */
     uint32_t reserved; /**< 0 */
-    uint64_t sequence; /**< per direction: 1, 2, 3, ... */
+    uint64_t sequence; /**< per connection and direction: 1, 2, 3, ... */
     uint64_t time_ns;  /**< CLOCK_MONOTONIC at measurement or computation */
 };
 
