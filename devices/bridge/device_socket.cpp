@@ -80,23 +80,29 @@ uint64_t socketClock() noexcept {
     return static_cast<uint64_t>(t.tv_sec) * 1000000000u + static_cast<uint64_t>(t.tv_nsec);
 }
 
-std::string socketFault(const fathom_door_header& header, size_t got, uint16_t kind, size_t size) {
+std::string SocketFault::text() const {
+    return std::string(found).append(" (allowed: ").append(allowed).append(")");
+}
+
+SocketFault socketFault(const fathom_door_header& header, size_t got, uint16_t kind, size_t size) {
+    const auto fault = [](const char* field, size_t found, size_t allowed) {
+        return SocketFault{std::string(field).append(" ").append(std::to_string(found)),
+                           std::to_string(allowed)};
+    };
     if (got < sizeof header) {
-        return std::to_string(got) + " bytes (allowed: " + std::to_string(size) + ")";
+        return {std::to_string(got).append(" bytes"), std::to_string(size)};
     }
     if (header.magic != FATHOM_DOOR_MAGIC) {
-        return "not a valid packet";
+        return {"not a valid packet", "the structs of <fathom/device_socket.h>"};
     }
     if (header.version != FATHOM_DOOR_VERSION) {
-        return "version " + std::to_string(header.version) +
-               " (allowed: " + std::to_string(FATHOM_DOOR_VERSION) + ")";
+        return fault("version", header.version, FATHOM_DOOR_VERSION);
     }
     if (header.kind != kind) {
-        return "kind " + std::to_string(header.kind) + " (allowed: " + std::to_string(kind) + ")";
+        return fault("kind", header.kind, kind);
     }
     if (got != size || header.size != size) {
-        return "size " + std::to_string(got != size ? got : header.size) +
-               " (allowed: " + std::to_string(size) + ")";
+        return fault("size", got != size ? got : header.size, size);
     }
     return {};
 }

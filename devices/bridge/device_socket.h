@@ -23,8 +23,15 @@ enum class SocketEvent {
     Bad,    // wrong size, magic, version or kind: drop the connection
 };
 
-// Describes the fault of a received packet of `got` bytes in one line; empty when it is valid.
-std::string socketFault(const fathom_door_header& header, size_t got, uint16_t kind, size_t size);
+// What is wrong with a received packet; empty when it is valid.
+struct SocketFault {
+    std::string found, allowed;
+
+    bool empty() const { return found.empty(); }
+    std::string text() const; // one line
+};
+// got: bytes received.
+SocketFault socketFault(const fathom_door_header& header, size_t got, uint16_t kind, size_t size);
 
 // Move-only. All members but connect() and listen() are noexcept and neither block nor allocate.
 class DeviceSocket {

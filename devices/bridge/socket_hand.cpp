@@ -70,10 +70,10 @@ void SocketHand::awaitFirst(double patience) {
             name_ = textOf(packet.name);
             take(packet);
             return;
-        case SocketEvent::Bad:
-            throw BadInput("socket", path_.string(),
-                           socketFault(packet.header, got, FATHOM_DOOR_HAND, sizeof packet),
-                           "a bridge built for version " + std::to_string(FATHOM_DOOR_VERSION));
+        case SocketEvent::Bad: {
+            const SocketFault fault = socketFault(packet.header, got, FATHOM_DOOR_HAND, sizeof packet);
+            throw BadInput("socket", path_.string(), fault.found, fault.allowed);
+        }
         case SocketEvent::Closed:
             throw BadInput("socket", path_.string(), "closed by the bridge",
                            "a bridge without another engine");

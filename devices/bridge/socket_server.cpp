@@ -71,7 +71,7 @@ void SocketServer::takeWrenches() {
             drop({});
             return;
         case SocketEvent::Bad:
-            drop(socketFault(packet.header, got, FATHOM_DOOR_WRENCH, sizeof packet));
+            drop(socketFault(packet.header, got, FATHOM_DOOR_WRENCH, sizeof packet).text());
             return;
         case SocketEvent::Packet:
             break;
