@@ -67,7 +67,7 @@ void SocketHand::awaitFirst(double patience) {
         switch (bridge_.receive(packet, FATHOM_DOOR_HAND, &got)) {
         case SocketEvent::Packet:
             preset_ = textOf(packet.preset);
-            name_ = textOf(packet.name);
+            name_ = printable(textOf(packet.name));
             take(packet);
             return;
         case SocketEvent::Bad: {

@@ -40,3 +40,19 @@ TEST_CASE("The refusal of a bridge's first packet has one list of allowed values
     bridge.join();
     CHECK(refusal == std::string("socket: ").append(folder.endpoint()).append(": ").append(found));
 }
+
+TEST_CASE("The name that a bridge sends cannot control a terminal or forge a line") {
+    SocketFolder folder;
+    DeviceSocket endpoint = DeviceSocket::listen(folder.endpoint(), 1);
+    DeviceSocket engine;
+    std::thread bridge([&] {
+        fathom_door_hand packet = handPacket(1, 0.0);
+        std::strcpy(packet.name, "\x1b[31m\n\xff hand");
+        CHECK(eventually([&] { return (engine = endpoint.accept()).open(); }));
+        CHECK(engine.send(packet) == SocketEvent::Packet);
+    });
+    const SocketHand hand(folder.endpoint(), 4);
+    bridge.join();
+    CHECK(hand.description() ==
+          std::string(" [31m ? hand at ").append(folder.endpoint()).append(" (preset x)"));
+}
