@@ -19,6 +19,8 @@ namespace {
 
 constexpr int kMaxPackets = 64; // per tick
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+constexpr uint32_t kMaxOld = 50;        // ticks with old samples, as after a pause of the engine
+constexpr uint64_t kQuiet = 5000000000; // [ns] between two reports
 
 template <size_t N>
 std::string textOf(const char (&from)[N]) {
@@ -29,6 +31,41 @@ std::string textOf(const char (&from)[N]) {
 int reopenSocket(const std::filesystem::path& path) noexcept {
     DeviceSocket next;
     return DeviceSocket::tryConnect(path, next) == 0 ? next.release() : -1;
+}
+
+// The first number of a pose that is not finite, or else its orientation.
+std::string poseFault(const fathom_door_hand& packet) {
+    const double* p = packet.position;
+    const double* q = packet.orientation;
+    if (!std::all_of(p, p + 3, [](double number) { return std::isfinite(number); })) {
+        return fmt::format("position {:.4g} {:.4g} {:.4g} (allowed: finite numbers)", p[0], p[1], p[2]);
+    }
+    return fmt::format("orientation {:.4g} {:.4g} {:.4g} {:.4g} (allowed: a quaternion w x y z of length 1; "
+                       "1 0 0 0 if the device does not sense it)",
+                       q[0], q[1], q[2], q[3]);
+}
+
+// One line. preset: of the device that was there first.
+std::string inWords(const SocketRefusal& refusal, const std::string& preset) {
+    const fathom_door_hand& packet = refusal.packet;
+    switch (refusal.kind) {
+    case SocketRefusal::Kind::Pose:
+        return "samples refused: " + poseFault(packet);
+    case SocketRefusal::Kind::Stamp:
+        return fmt::format("samples refused: time_ns {} is {:.4g} s behind CLOCK_MONOTONIC (allowed: at most "
+                           "{:.4g} s)",
+                           packet.header.time_ns, 1e-9 * static_cast<double>(refusal.age),
+                           1e-9 * FATHOM_DOOR_SILENCE_NS);
+    case SocketRefusal::Kind::Packet:
+        return "connection ended: " +
+               socketFault(packet.header, refusal.bytes, FATHOM_DOOR_HAND, sizeof packet).text();
+    case SocketRefusal::Kind::Preset:
+        return fmt::format("the device is now a {}, not a {}: no force until a restart",
+                           printable(textOf(packet.preset)), printable(preset));
+    case SocketRefusal::Kind::None:
+        break;
+    }
+    return {};
 }
 
 } // namespace
@@ -47,7 +84,7 @@ SocketHand::SocketHand(std::filesystem::path path, uint32_t clutchBit, double pa
     : path_(std::move(path))
     , away_(FATHOM_DOOR_DEAD_MAN_OPEN | clutchBit)
     , bridge_(DeviceSocket::connect(path_))
-    , reconnector_([path = path_] { return reopenSocket(path); }, [this] { reportChange(); }) {
+    , reconnector_([path = path_] { return reopenSocket(path); }, [this] { reportRefusal(); }) {
     last_.buttons = away_;
     awaitFirst(patience);
 }
@@ -94,10 +131,12 @@ void SocketHand::take(const fathom_door_hand& packet) noexcept {
     Pose pose;
     // A device of another kind has other limits, so the springs do not fit it.
     const bool same = std::strncmp(packet.preset, preset_.c_str(), sizeof packet.preset) == 0;
-    status_ = same && soundPose(packet, pose) ? packet.status : 0;
-    if (!same && !changed_.load(std::memory_order_relaxed)) {
-        std::copy_n(packet.preset, sizeof otherPreset_, otherPreset_);
-        changed_.store(true, std::memory_order_release);
+    const bool sound = soundPose(packet, pose), ready = (packet.status & kReady) == kReady;
+    status_ = same && sound ? packet.status : 0;
+    if (!same) {
+        refuse(SocketRefusal::Kind::Preset, packet, sizeof packet);
+    } else if (!sound && ready) {
+        refuse(SocketRefusal::Kind::Pose, packet, sizeof packet);
     }
     if ((status_ & kReady) == kReady) {
         last_.deviceThandle = pose;
@@ -109,20 +148,44 @@ void SocketHand::take(const fathom_door_hand& packet) noexcept {
 }
 
 void SocketHand::drain() noexcept {
-    fathom_door_hand packet;
+    fathom_door_hand packet{};
     for (int i = 0; i < kMaxPackets; ++i) {
-        switch (bridge_.receive(packet, FATHOM_DOOR_HAND)) {
+        size_t got = 0;
+        switch (bridge_.receive(packet, FATHOM_DOOR_HAND, &got)) {
         case SocketEvent::Packet:
             take(packet);
             break;
         case SocketEvent::Empty:
             return;
         case SocketEvent::Bad:
+            refuse(SocketRefusal::Kind::Packet, packet, got);
+            lose();
+            return;
         case SocketEvent::Closed:
             lose();
             return;
         }
     }
+}
+
+// Samples that have just arrived and are too old have a stamp of another clock, or of a slow line. After a
+// pause of the engine they are old for a few ticks only.
+void SocketHand::checkAge(uint64_t now) noexcept {
+    oldInRow_ = now - lastTime_ > FATHOM_DOOR_SILENCE_NS ? oldInRow_ + 1 : 0;
+    if (oldInRow_ == kMaxOld && (status_ & kReady) == kReady) {
+        fathom_door_hand packet{};
+        packet.header.time_ns = lastTime_;
+        refuse(SocketRefusal::Kind::Stamp, packet, sizeof packet);
+    }
+}
+
+void SocketHand::refuse(SocketRefusal::Kind kind, const fathom_door_hand& packet, size_t bytes) noexcept {
+    if (kind == refused_) {
+        return;
+    }
+    refused_ = kind;
+    refusal_.back() = {kind, ++refusals_, packet, bytes, socketClock() - packet.header.time_ns};
+    refusal_.publish();
 }
 
 void SocketHand::lose() noexcept {
@@ -134,16 +197,21 @@ HandSample SocketHand::read(double) noexcept {
     if (!bridge_.open()) {
         bridge_ = DeviceSocket(reconnector_.take());
     }
+    const uint64_t before = figures_.samples;
     if (bridge_.open()) {
         drain();
     }
-    const uint64_t age = socketClock() - lastTime_;
+    const uint64_t now = socketClock(), age = now - lastTime_;
+    if (figures_.samples != before) {
+        checkAge(now);
+    }
     const bool was = alive_;
     alive_ = bridge_.open() && (status_ & kReady) == kReady && age <= FATHOM_DOOR_SILENCE_NS;
     figures_.losses += was && !alive_ ? 1 : 0;
     if (!alive_) {
         return {last_.deviceThandle, last_.buttons | away_, false};
     }
+    refuse(SocketRefusal::Kind::None, {}, 0);
     figures_.worstAge = std::max(figures_.worstAge, static_cast<double>(age) * 1e-9);
     return last_;
 }
@@ -171,12 +239,17 @@ void SocketHand::write(const Wrench& wrench, double) noexcept {
     }
 }
 
-void SocketHand::reportChange() noexcept {
-    if (!reported_ && changed_.load(std::memory_order_acquire)) {
-        reported_ = true;
-        log::warn("{}: the device is now a {}, not a {}: no force until a restart", path_.string(),
-                  printable(textOf(otherPreset_)), preset_);
+// Once per refusal that lasts. A bridge that changes between right and wrong is named every five seconds.
+void SocketHand::reportRefusal() noexcept {
+    refusal_.refresh();
+    const SocketRefusal& newest = refusal_.front();
+    const uint64_t now = socketClock();
+    if (newest.kind == SocketRefusal::Kind::None || newest.number == reported_ || now < quietUntil_) {
+        return;
     }
+    reported_ = newest.number;
+    quietUntil_ = now + kQuiet;
+    log::warn("{}: {}", path_.string(), inWords(newest, preset_));
 }
 
 std::string SocketHand::description() const {

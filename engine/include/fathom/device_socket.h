@@ -14,7 +14,9 @@
  *   0.2 s after a loss.
  * - Safety of the engine: it treats a silent or missing bridge as an open dead-man switch and then as a
  *   clutch, so the tool stays where it is.
- * - A packet with a wrong size, magic, version or kind ends the connection; its content is not used.
+ * - A packet with a wrong size, magic, version or kind ends the connection; its content is not used. A
+ *   sample whose numbers are not finite, or whose time_ns is more than FATHOM_DOOR_SILENCE_NS ago, counts as
+ *   absent. The engine's log names the cause of both.
  * - View socket (STATE, REGIONS, FIXTURES): the engine listens, up to four observers connect and only
  *   receive: fathom_door_state once per tick, and as many fathom_door_regions and fathom_door_fixtures as a
  *   fixture set needs. The engine never waits.
@@ -68,7 +70,8 @@ struct fathom_door_hand {
     uint32_t status;                  /**< PRESENT and HOMED */
     uint32_t buttons;                 /**< GUIDANCE, DEAD_MAN_OPEN and CLUTCH */
     double position[3];               /**< [m] of the handle */
-    double orientation[4];            /**< w x y z; 1 0 0 0 when the device does not sense it */
+    double orientation[4];            /**< w x y z; 1 0 0 0 when the device does not sense it. Normalised; if
+                                           its squared length is not in 0.5 to 2, the sample counts as absent */
     char preset[16];                  /**< row of Fathom's device presets ("falcon"), zero-terminated */
     char name[32];                    /**< shown to the user, zero-terminated */
 };
