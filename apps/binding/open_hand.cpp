@@ -76,8 +76,11 @@ std::string axesOf(const std::string& preset) {
     return text;
 }
 
-bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
+bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop, double seconds) {
     const auto began = std::chrono::steady_clock::now();
+    const auto waited = [began] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    };
     bool reported = false;
     for (;;) {
         hand.read(0.0);
@@ -87,8 +90,12 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
         if (stop.load()) {
             return false;
         }
-        if (!reported && std::chrono::steady_clock::now() - began > std::chrono::seconds(1)) {
-            log::warn("waiting for {}: plugged in and homed?", hand.description());
+        if (seconds > 0.0 && waited() >= seconds) {
+            throw DeviceLost(
+                fmt::format("{}: no usable sample in --seconds {:.4g}", hand.description(), seconds));
+        }
+        if (!reported && waited() > 1.0) {
+            log::warn("waiting for a usable sample of {}: plugged in and homed?", hand.description());
             reported = true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

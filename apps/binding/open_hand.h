@@ -26,8 +26,8 @@ std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene);
 std::string axesOf(const std::string& preset);
 
 // Waits until the device sends poses (plugged in and homed); false when `stop` is set first. Logs once what
-// it waits for.
-bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop);
+// it waits for. Throws DeviceLost after this time [s]; 0 = never.
+bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop, double seconds);
 
 // The path of a CSV file. Logs a warning when, scaled, it is so long, or so far from everything in the scene,
 // that its unit may be the millimetre. poseless: no frame has a pose, so that the scene's place of the camera

@@ -117,7 +117,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
 // The tool starts where the scene's path starts, wherever the hand is.
 void RealtimeReplay::runLive(const HandPath& path) {
     LiveHand& hand = *session_.liveHand;
-    awaitHand(hand, signals_.requested());
+    awaitHand(hand, signals_.requested(), options_.seconds);
     const Pose start = startOf(path, session_.scene);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
                    session_.arm.get());

@@ -254,6 +254,32 @@ TEST_CASE("The log reports when a device disconnects during a run and when it is
     CHECK(exitCodeOf(engine, SIGINT) == 0);
 }
 
+TEST_CASE(
+    "--seconds ends a run that waits for its hand, after a line that says why its samples are refused") {
+    Stage stage;
+    setUpNearWall(stage);
+    DeviceSocket endpoint = DeviceSocket::listen(stage / "hand.door", 1), engine;
+    std::atomic<bool> stop{false};
+    std::thread bridge([&] {
+        for (uint64_t sequence = 1; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+            engine = engine.open() ? std::move(engine) : endpoint.accept();
+            fathom_door_hand packet{}; // its orientation is 0 0 0 0
+            packet.header = socketHeader(FATHOM_DOOR_HAND, sizeof packet, sequence++);
+            packet.status = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+            std::string("falcon").copy(packet.preset, sizeof packet.preset);
+            engine.send(packet);
+        }
+    });
+    const ProgramRun run = runFathom(
+        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "2"}));
+    stop = true;
+    bridge.join();
+    CHECK(run.exitCode == 3);
+    const size_t cause = run.err.find("samples refused: orientation 0 0 0 0 (allowed: ");
+    CHECK_MESSAGE(cause < run.err.find("waiting for a usable sample of "), run.err);
+    CHECK(run.err.find("no usable sample in --seconds 2") != std::string::npos);
+}
+
 TEST_CASE("A live hand without --realtime, with a path or without a bridge is rejected in one line") {
     Stage stage;
     stage.recording({Image(kWidth, kHeight, 600).paint(kAll, kRed)});
