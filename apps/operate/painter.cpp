@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -87,27 +88,29 @@ void Painter::uploadFonts() {
     panels_->restart([this](const std::function<void(VkCommandBuffer)>& body) { once(body); });
 }
 
+// After a throw the painter still has its old size.
 void Painter::resize(VkExtent2D size) {
     if (target_ && target_.size().width == size.width && target_.size().height == size.height) {
         return;
     }
-    vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
-    target_ = FrameTexture(device_, kDrawn, size,
-                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                               VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    latest_.filled = latest_.shown = false;
-    if (host_) {
-        return;
+    FrameTexture target(device_, kDrawn, size,
+                        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                            VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    if (!host_) {
+        const VkImageView view = target.view();
+        const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                           .renderPass = panels_->pass(),
+                                           .attachmentCount = 1,
+                                           .pAttachments = &view,
+                                           .width = size.width,
+                                           .height = size.height,
+                                           .layers = 1};
+        VkFramebuffer framebuffer = VK_NULL_HANDLE;
+        check(vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer), "vkCreateFramebuffer");
+        vkDestroyFramebuffer(device_.handle(), std::exchange(framebuffer_, framebuffer), nullptr);
     }
-    const VkImageView view = target_.view();
-    const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                       .renderPass = panels_->pass(),
-                                       .attachmentCount = 1,
-                                       .pAttachments = &view,
-                                       .width = size.width,
-                                       .height = size.height,
-                                       .layers = 1};
-    check(vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_), "vkCreateFramebuffer");
+    target_ = std::move(target); // destroys the old image after its framebuffer
+    latest_.filled = latest_.shown = false;
 }
 
 bool Painter::yields(const std::function<bool()>& busy) {
@@ -174,9 +177,10 @@ void Painter::stage(std::span<const Layer> layers) {
         }
         if (!staged.image || staged.image.size().width != layer.width ||
             staged.image.size().height != layer.height) {
+            gpu::Buffer staging(device_, layer.pixels.size_bytes(), gpu::MemoryKind::Upload, "view");
             staged.image = FrameTexture(device_, kImage, {layer.width, layer.height},
                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-            staged.staging = gpu::Buffer(device_, layer.pixels.size_bytes(), gpu::MemoryKind::Upload, "view");
+            staged.staging = std::move(staging);
         }
         std::memcpy(staged.staging.as<uint32_t>().data(), layer.pixels.data(), layer.pixels.size_bytes());
     }

@@ -9,7 +9,8 @@
 //   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes it and fails: passes
 //                        (submission with a timeline), drawing (other submission) and presenting lose the
 //                        device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR once,
-//                        waiting VK_ERROR_OUT_OF_HOST_MEMORY; surface is lost from the next presentation on
+//                        waiting VK_ERROR_OUT_OF_HOST_MEMORY, allocating VK_ERROR_OUT_OF_DEVICE_MEMORY;
+//                        surface is lost from the next presentation on
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
@@ -30,26 +31,6 @@ std::map<void*, NextDevice> devices; // key: the loader's dispatch table, which 
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
 PFN_vkDestroySurfaceKHR nextDestroySurface = nullptr;
 long opened = 0, refused = 0; // refused: since the last loss
-
-void* keyOf(void* handle) {
-    return *static_cast<void**>(handle);
-}
-
-template <class Call>
-Call find(PFN_vkGetDeviceProcAddr address, VkDevice device, const char* name) {
-    return reinterpret_cast<Call>(address(device, name));
-}
-
-template <class Link>
-Link* linkOf(const void* chain, VkStructureType type) {
-    for (auto* at = static_cast<const VkBaseInStructure*>(chain); at != nullptr; at = at->pNext) {
-        auto* link = reinterpret_cast<Link*>(const_cast<VkBaseInStructure*>(at));
-        if (at->sType == type && link->function == VK_LAYER_LINK_INFO) {
-            return link;
-        }
-    }
-    return nullptr;
-}
 
 VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info,
                                               const VkAllocationCallbacks* memory, VkInstance* instance) {
@@ -96,6 +77,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         next.present = find<PFN_vkQueuePresentKHR>(address, *device, "vkQueuePresentKHR");
         next.acquire = find<PFN_vkAcquireNextImageKHR>(address, *device, "vkAcquireNextImageKHR");
         next.createSwapchain = find<PFN_vkCreateSwapchainKHR>(address, *device, "vkCreateSwapchainKHR");
+        next.allocate = find<PFN_vkAllocateMemory>(address, *device, "vkAllocateMemory");
         next.first = opened++ == 0;
     }
     return result;
@@ -195,6 +177,19 @@ VKAPI_ATTR VkResult VKAPI_CALL times(VkDevice handle, VkQueryPool pool, uint32_t
     return pass(handle, pool, first, count, bytes, data, stride, flags);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
+                                        const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+    PFN_vkAllocateMemory pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        if (askedFor("allocating")) {
+            return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+        }
+        pass = devices[keyOf(device)].allocate;
+    }
+    return pass(device, info, callbacks, memory);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     PFN_vkQueuePresentKHR pass = nullptr;
     VkResult after = VK_SUCCESS; // the wait on the frame's semaphores counts in any case
@@ -260,7 +255,8 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceAddress(VkDevice device, const ch
                                {"vkWaitSemaphores", plain(waitSemaphores)},
                                {"vkQueueSubmit", plain(submit)},
                                {"vkWaitForFences", plain(waitFences)},
-                               {"vkGetQueryPoolResults", plain(times)}},
+                               {"vkGetQueryPoolResults", plain(times)},
+                               {"vkAllocateMemory", plain(allocate)}},
                               name);
     if (always != nullptr) {
         return always;

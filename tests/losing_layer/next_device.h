@@ -16,6 +16,7 @@ struct NextDevice {
     PFN_vkWaitSemaphores wait = nullptr;
     PFN_vkWaitForFences waitFences = nullptr;
     PFN_vkGetQueryPoolResults times = nullptr;
+    PFN_vkAllocateMemory allocate = nullptr;
     PFN_vkQueuePresentKHR present = nullptr; // null: no swapchains
     PFN_vkAcquireNextImageKHR acquire = nullptr;
     PFN_vkCreateSwapchainKHR createSwapchain = nullptr;

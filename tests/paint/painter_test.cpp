@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same frame of the window drawn by the device and by the CPU.
+// The same frame of the window drawn by the device and by the CPU, and a device without memory.
 #include "apps/operate/painter.h"
 #include "apps/output/image.h"
 #include "devices/recorded/png_image.h"
+#include "engine/types/error.h"
 #include "tests/apps/laid_screen.h"
+#include "tests/rig/losing.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
 #include <random>
 
 using namespace fathom;
@@ -78,4 +82,25 @@ TEST_CASE("Device and CPU draw the same window") {
     MESSAGE("largest " << d.most << ", mean " << d.mean << ", far " << d.far);
     CHECK(d.mean < 0.2);
     CHECK(d.far < 0.001);
+}
+
+TEST_CASE("A window that finds no memory for a new size still draws at the old one") {
+    const testing::ScratchFolder folder;
+    const std::filesystem::path trigger = folder / "trigger";
+    const Losing losing(trigger.string(), 0);
+    gpu::Instance instance(testing::Vulkan::validation());
+    gpu::Device device(instance, testing::Vulkan::selector(), gpu::Drawing::Offscreen);
+    testing::LaidScreen laid;
+    laid.loadFontsFor({kSize.width, kSize.height}, 1.0);
+    laid.draw();
+    Painter painter(instance, device, nullptr, Painter::By::Device);
+    const auto draws = [&](VkExtent2D size) {
+        return painter.draw(size, {}, ImGui::GetDrawData(), [] { return false; });
+    };
+    REQUIRE(draws(kSize));
+    REQUIRE(painter.frameImage(0)); // the frame is done
+    std::ofstream(trigger) << "allocating";
+    CHECK_THROWS_AS(draws({kSize.width + 8, kSize.height}), OutOfMemory);
+    CHECK_FALSE(std::filesystem::exists(trigger));
+    CHECK(draws(kSize));
 }
