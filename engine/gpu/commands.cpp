@@ -16,8 +16,12 @@ constexpr VkAccessFlags kAccess = VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_
 
 } // namespace
 
+Commands::Commands(const Device& device, Unmade)
+    : device_(device) {}
+
+// Delegates, so that the destructor runs when a later step throws.
 Commands::Commands(const Device& device)
-    : device_(device) {
+    : Commands(device, Unmade{}) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");

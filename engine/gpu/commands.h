@@ -48,11 +48,13 @@ public:
     void copyParts(const Buffer& from, const Buffer& to,
                    std::span<const std::pair<uint64_t, uint64_t>> parts);
     // Makes earlier writes visible to later commands, but not to the host (see end()) or to reads of indirect
-    // arguments: each of these would double the cost on a GPU.
+    // arguments: including either would double the cost of the barrier on a GPU.
     void barrier();
     void barrierBeforeIndirect(); // also covers the arguments of dispatchIndirect()
 
 private:
+    struct Unmade {}; // creates nothing on the device
+    Commands(const Device& device, Unmade);
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);
     void bind(const Pipeline& pipeline, const Bindings& bindings, const void* push);
 

@@ -13,10 +13,14 @@
 
 namespace fathom::gpu {
 
-Device::Device(const Instance& instance, const std::string& selector, Drawing drawing)
-    : physical_(choosePhysicalDevice(instance, selector))
+Device::Device(VkPhysicalDevice physical)
+    : physical_(physical)
     , family_(*computeFamily(physical_))
-    , facts_(readFacts(physical_)) {
+    , facts_(readFacts(physical_)) {}
+
+// Delegates, so that the destructor runs when a later step throws.
+Device::Device(const Instance& instance, const std::string& selector, Drawing drawing)
+    : Device(choosePhysicalDevice(instance, selector)) {
     facts_.gpuQueryLeaves = storedQueryCrossover(physical_, facts_.gpuQueryLeaves);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     if (drawing != Drawing::None) {
@@ -92,7 +96,9 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
     info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     const BlockedSignals quiet; // for threads of the driver
-    check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
+    VkDevice handle = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical_, &info, nullptr, &handle), "vkCreateDevice");
+    handle_ = handle;
     if (facts_.hostPointerAlignment > 0) {
         hostPointerProperties_ = reinterpret_cast<PFN_vkGetMemoryHostPointerPropertiesEXT>(
             vkGetDeviceProcAddr(handle_, "vkGetMemoryHostPointerPropertiesEXT"));

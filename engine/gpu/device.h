@@ -35,9 +35,9 @@ enum class Drawing {
 
 class Device {
 public:
-    // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name.
-    // Throws BadInput, or DeviceMissing if no device would do, that lists all devices, with the reasons for
-    // rejected ones.
+    // selector: empty = discrete, else integrated, else another kind (a virtual GPU), else CPU; a number =
+    // index; otherwise part of the name. Throws BadInput, or DeviceMissing if no device would do, that lists
+    // all devices, with the reasons for rejected ones.
     Device(const Instance& instance, const std::string& selector = {}, Drawing drawing = Drawing::None);
     ~Device();
     Device(const Device&) = delete;
@@ -85,6 +85,7 @@ public:
     static std::vector<std::string> list(const Instance& instance);
 
 private:
+    explicit Device(VkPhysicalDevice physical); // without a logical device
     void createLogicalDevice(bool gpuAssisted, Drawing drawing);
     std::vector<const char*> extensionsFor(Drawing drawing) const;
     static void submitTo(VkQueue queue, VkCommandBuffer commands, const TimelinePoint& wait,

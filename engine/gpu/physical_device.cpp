@@ -14,7 +14,7 @@ namespace fathom::gpu {
 
 namespace {
 
-constexpr uint32_t kMaxBindings = 20; // bindings of the largest pass
+constexpr uint32_t kMaxBindings = 20; // storage buffers of the largest pass
 // An H200 was faster than the CPU from here on in every set that `fathom profile query` measures (docs/h200).
 constexpr uint32_t kDiscreteQueryLeaves = 256;
 

@@ -100,7 +100,8 @@ Pipeline::Pipeline(const Device& device, PipelineInfo info)
 
 Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::vector<const Buffer*>& buffers,
                    const Buffer& unused)
-    : device_(&device) {
+    : Bindings() { // delegates, so that the destructor runs when a later step throws
+    device_ = &device;
     const auto count = static_cast<uint32_t>(pipeline.bindings().size());
     if (buffers.size() != count) {
         throw Error(std::string(pipeline.name()) + " has " + std::to_string(count) + " bindings, not " +

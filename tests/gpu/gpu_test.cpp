@@ -136,6 +136,21 @@ gpu::Pipeline ceiling(const gpu::Device& device, uint32_t group, uint32_t rounds
 
 } // namespace
 
+TEST_CASE("Bindings that cannot be made leave nothing behind on the device") {
+    const uint32_t before = gpu::validationMessages(); // the layer reports what a destroyed device still has
+    {
+        gpu::Instance instance(testing::Vulkan::validation());
+        gpu::Device device(instance, testing::Vulkan::selector());
+        gpu::PipelineInfo info = ceilingInfo(64, 1);
+        info.bindings.push_back({VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_FORMAT_R8_UINT});
+        const gpu::Pipeline pipeline(device, info);
+        const gpu::Buffer buffer(device, 64, gpu::MemoryKind::Device, "buffer");
+        CHECK_THROWS_WITH(gpu::Bindings(device, pipeline, {&buffer, &buffer}, buffer),
+                          doctest::Contains("is not used by any pass"));
+    }
+    CHECK(gpu::validationMessages() == before);
+}
+
 TEST_CASE("The stopwatch measures the work between two marks, in milliseconds") {
     using Clock = std::chrono::steady_clock;
     gpu::Device& device = vulkan().device;
