@@ -48,6 +48,7 @@ Ros2Camera::Ros2Camera(const Ros2Request& request)
         colourStamps_.emplace(choice_.colour->name);
     }
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
+    lastDepth_ = monotonicSeconds();
 }
 
 Ros2Camera::Topic Ros2Camera::subscribeImages(const std::string& topic) {

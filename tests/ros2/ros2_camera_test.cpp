@@ -134,6 +134,26 @@ TEST_CASE("A killed driver is reported as lost, and its successor is used") {
                       [](const Frame* frame) { return frame != nullptr && (*frame)->depth[0] == 700; }));
 }
 
+TEST_CASE("A driver that ends before the first frame is reported with the time since the camera was opened") {
+    auto driver = std::make_unique<Talker>();
+    Ros2Request request = requestCamera(",colour=none"); // so that no image waits for another
+    request.silence = 0.5;
+    Ros2Camera camera(request);
+    const double opened = nowMonotonic();
+    driver.reset();
+    std::string message;
+    while (message.empty()) { // frames that were sent meanwhile come first
+        try {
+            camera.next();
+        } catch (const DeviceLost& e) {
+            message = e.what();
+        }
+    }
+    const std::string before = "no depth image for ";
+    REQUIRE(message.find(before) != std::string::npos);
+    CHECK(std::stod(message.substr(message.find(before) + before.size())) <= nowMonotonic() - opened + 1.0);
+}
+
 TEST_CASE("Messages that end early are counted and named once, and frames continue") {
     Talker driver;
     Ros2Camera camera(requestCamera());
