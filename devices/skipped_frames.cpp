@@ -10,7 +10,7 @@ void SkippedFrames::add(const std::string& camera, const std::string& cause, uin
     count_ += frames;
     last_ = cause;
     if (causes_.size() < kMaxCauses && causes_.insert(cause).second) {
-        log::warn("{}: frame skipped: {} (logged once)", camera, cause);
+        log::warn("{}: {}{} (logged once)", camera, frames > 0 ? "frame skipped: " : "", cause);
     }
 }
 

@@ -18,6 +18,7 @@ TEST_CASE("Skipped frames are counted, and each cause is logged once, up to a li
     skipped.add("camera", "far pixels", 0);
     CHECK(skipped.count() == 93);
     CHECK(log.count("camera: frame skipped: damaged (logged once)") == 1);
+    CHECK(log.count("camera: far pixels (logged once)") == 1); // those frames were used
     CHECK(skipped.causes() == std::vector<std::string>{"damaged", "far pixels", "no colour"});
     for (int i = 0; i < 90; ++i) {
         skipped.add("camera", "short: " + std::to_string(i) + " bytes");
