@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kPollMs = 50;
 constexpr double kFirstFrame = 5.0; // [s] start-up time of a camera
-constexpr double kUnusable = 2.5;   // of `silence`; more than watch() allows, which names a silent stream
+constexpr double kUnusable = 2.5;   // times `silence`; longer than watch() waits, whose message comes first
 
 Clock::time_point grace() {
     return Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * kFirstFrame));
@@ -142,9 +142,14 @@ void V4l2Camera::gather() {
         arrivals_.push_back({true, *buffer});
         depthWatch_ = {std::max(depthWatch_.last, Clock::now()), false};
     }
+    const uint64_t missing = streams_->missingColour();
     while (const auto buffer = streams_->colour ? streams_->colour->take() : std::nullopt) {
         arrivals_.push_back({false, *buffer});
         colourWatch_ = {std::max(colourWatch_.last, Clock::now()), false};
+    }
+    if (streams_->missingColour() > missing) {
+        skipped_.add(description_,
+                     "colour frames are missing: depth is paired with a neighbour, if one is close", 0);
     }
     if (arrivals_.size() > before + 1) {
         std::stable_sort(arrivals_.begin(), arrivals_.end(),

@@ -42,7 +42,7 @@ public:
     std::string description() const override;
     bool live() const override { return true; }
     // Gaps in the driver's depth counter plus frames superseded before they were read. A missing colour frame
-    // loses no pair while a neighbour is close enough.
+    // loses no pair while a neighbour is close enough; it is logged once.
     uint64_t lost() const override;
     std::optional<double> framePeriod() const override { return depthPeriod_; }
     std::shared_ptr<CameraControls> controls() const override { return controls_; }

@@ -3,6 +3,7 @@
 #include "tests/vm/camera/live_camera.h"
 
 #include "engine/types/error.h"
+#include "tests/realtime/listening.h"
 
 #include <thread>
 
@@ -56,10 +57,12 @@ TEST_CASE(
     V4l2Camera camera(request);
     readFrames(camera, 3);
     const uint64_t before = camera.lostColour(), depth = camera.lost();
+    const testing::Listening log;
     device.colour().faults.errorBit = 3;
     readFrames(camera, 16);
     CHECK(device.colour().faults.errorBit == 0);
     CHECK(camera.lostColour() >= before + 2);
+    CHECK(log.count("colour frames are missing") == (before == 0 ? 1u : 0u)); // logged once
     CHECK(camera.lost() == depth);
 }
 
