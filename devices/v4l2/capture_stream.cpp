@@ -133,6 +133,7 @@ void CaptureStream::start() {
 }
 
 void CaptureStream::restart() {
+    const std::lock_guard lock(returning_);
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     if (node_.control(VIDIOC_STREAMOFF, &type) != 0) {
         throw DeviceLost(node_.file().string() + ": streaming: " + std::strerror(errno));
@@ -190,6 +191,7 @@ double CaptureStream::stampOf(long seconds, long micros, uint32_t flags) {
 }
 
 void CaptureStream::giveBack(uint32_t index) noexcept {
+    const std::lock_guard lock(returning_);
     if (held_[index].exchange(false)) {
         queue(index);
     }

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 
@@ -72,7 +73,6 @@ public:
     double period() const { return period_; }          // [s] as the driver set it
     uint32_t queued() const { return queued_.load(); } // buffers that the driver can fill
     uint64_t missing() const { return missing_; }      // frames lost before take(): sequence gaps
-    uint32_t taken() const { return kBuffers - queued_.load(); }
 
 private:
     void negotiate();
@@ -94,6 +94,7 @@ private:
     std::array<Buffer, kBuffers> buffers_;
     std::array<std::atomic<bool>, kBuffers> held_{}; // held by the camera
     std::atomic<uint32_t> queued_{0};
+    std::mutex returning_; // keeps giveBack() out of restart(), which counts queued_ anew
     std::optional<uint32_t> lastSequence_;
     uint64_t missing_ = 0;
     bool ahead_ = false; // a stamp was, and it is logged
