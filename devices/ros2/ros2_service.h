@@ -23,9 +23,8 @@ public:
                 const std::string& type);
 
     // Answers the requests since the last call. obey: reads the request's own values, obeys, and returns the
-    // reply's text; it throws Error for an unusable request, which is skipped, counted and logged once.
+    // reply's text; it throws Error for an unusable request, which is skipped; the first one is logged.
     void serve(const std::function<std::string(MessageCursor& request)>& obey);
-    uint64_t skipped() const { return skipped_; }
 
     static constexpr size_t kMaxWaiting = 64; // replies
 

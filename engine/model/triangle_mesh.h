@@ -18,7 +18,7 @@ struct TriangleMesh {
     double area(size_t triangle) const;  // [m^2]
     dvec3 normal(size_t triangle) const; // unit, by the winding of the corners; zero for a face without area
     double area() const;
-    double volume() const; // [m^3] signed: positive for a closed mesh with outward normals
+    double volume() const; // [m^3] signed: positive for a closed mesh with outward normals; for tests
     dvec3 low() const;     // corners of the box; zero without points
     dvec3 high() const;
 };

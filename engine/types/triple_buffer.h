@@ -32,9 +32,6 @@ public:
 
     const T& front() const noexcept { return slots_[front_]; }
 
-    // Every slot, for sizing them before the threads start.
-    std::array<T, 3>& slots() noexcept { return slots_; }
-
 private:
     static constexpr uint32_t kIndex = 3;
     static constexpr uint32_t kFresh = 4;
