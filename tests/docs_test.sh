@@ -118,10 +118,31 @@ done
 for example in apps/examples/*.cpp; do
     [[ $shown == *" $example "* ]] || { echo "ERROR: no document shows $example as it is"; failed=$((failed + 1)); }
 done
-# The README's row on Embree has the extremes of the table; the benchmarks have the number of stability cases without recordings.
+# The README's row on Embree has the extremes of the table. The benchmarks have the number of stability cases without recordings, and
+# the ratios and exponents of the tables.
 extremes=$(awk -F, '/^contact .* x (64|1024) leaves,Embree points/ { if (!most || $19 < least) least = $19; if ($19 > most) most = $19 }
                     END { printf "%.2f to %.1f times as fast", least, most }' docs/peers.csv)
 grep -qF "| $extremes |" README.md || { echo "ERROR: README.md: compared with Embree: not '$extremes'"; failed=$((failed + 1)); }
+# Prints the exponent of the frame's time in a column of lavapipe's `scaling`: least squares of the logarithms.
+exponent() {
+    awk -F, -v source="$1" -v x="$2" 'NR == 1 { for (i = 1; i <= NF; ++i) { at[$i] = i } next }
+        $1 == source && $(at[x]) > 0 { a = log($(at[x])); b = log($(at["upload_to_published_p50_ms"])); n++; sa += a; sb += b; ab += a * b; aa += a * a }
+        END { printf "^%.2f", (ab - sa * sb / n) / (aa - sa * sa / n) }' docs/lavapipe/scaling.csv
+}
+# Prints the ratios of lavapipe's `limit` in one case.
+ratios() {
+    awk -F, -v source="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) { at[$i] = i } next }
+        $1 == source { r[$2] = $(at["ratio"]) }
+        END { printf "`surface` %.1f, `thin` %.1f, `spheres` %.1f, `classify` %.1f, collecting %.1f, the grid %.1f", r["surface"], r["thin"],
+                     r["spheres"], r["classify"], r["collect"], r["grid"] }' docs/lavapipe/limit.csv
+}
+benchmarks=$(tr -s ' \n' ' ' <docs/benchmarks.md)
+for part in "with noise: $(ratios '100 % forbidden')." "Without noise: $(ratios '100 % forbidden; noise-free')." \
+    "grows as pixels$(exponent 'size; every point forbidden' pixels), with" \
+    "forbidden pixels as $(exponent 'forbidden share of 640x480' forbidden_percent)," \
+    "classes as $(exponent 'classes; 10 % forbidden' classes) "; do
+    [[ $benchmarks == *"$part"* ]] || { echo "ERROR: docs/benchmarks.md: not '$part'"; failed=$((failed + 1)); }
+done
 cases=$(fathom stability --list | grep -vc -- -recording-)
 grep -qF "measures $cases cases" docs/benchmarks.md || { echo "ERROR: docs/benchmarks.md: not 'measures $cases cases'"; failed=$((failed + 1)); }
 [ "$blocks" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
