@@ -53,7 +53,7 @@ void estimateRow(uint slot) {
     uint word = masks[slot >> 2], kept = 0u;
     vec4 z = vec4(points[slot].w, points[slot + 1u].w, points[slot + 2u].w, points[slot + 3u].w);
     Estimate before[4] = Estimate[4](estimateAt(slot), estimateAt(slot + 1u), estimateAt(slot + 2u), estimateAt(slot + 3u));
-    // A loop of 0 or 1 rounds: CPU devices skip it, but would run both sides of a branch.
+    // A loop instead of an `if`: CPU devices run both sides of a branch but skip an empty loop.
     for (uint moved = 0; moved < (kMoves != 0 ? cameraMoved() : 0u); ++moved) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
             before[k] = carried(at + uvec2(k, 0), z[k] != 0.0 ? z[k] : raw[k]);

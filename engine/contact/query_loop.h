@@ -66,7 +66,8 @@ public:
     const QueryCapacity& capacity() const { return capacity_; }
 
 private:
-    static constexpr size_t kMaxPairs = size_t{1} << 20; // 38 MB per set; a tick took 0.26 s with 1.6 million
+    // 38 MB per set; with 1.6 million pairs a tick took 0.26 s
+    static constexpr size_t kMaxPairs = size_t{1} << 20;
     // [m] below this the trust region is only margin, so halving gains nothing
     static constexpr double kSmallestReach = 2e-5;
 

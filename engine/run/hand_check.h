@@ -10,8 +10,8 @@ namespace fathom {
 // is unconfirmed for at most kConfirmTime: hand and tool stay, and the force may only fall. If the samples
 // agree with each other for that time, they are accepted and the hand is re-indexed there. So a single wrong
 // sample moves nothing, and a lasting offset is accepted. If samples contradict each other for longer, or are
-// beyond kFarthest, the device counts as gone. A sample that is not finite says nothing about the hand's
-// place: the next sample is compared with the last accepted one. Haptic thread; noexcept.
+// beyond kFarthest, the device counts as gone. A non-finite sample is ignored: the next one is compared with
+// the last accepted one. Haptic thread; noexcept.
 class HandCheck {
 public:
     // The hand was at `start` at `time` [s]: the first sample is compared with it.

@@ -120,7 +120,7 @@ private:
                 if (entry.readers.compare_exchange_weak(count, count + 1, std::memory_order_acquire)) {
                     Lease lease(&entry);
                     // The writer may have reused the entry before it was leased. Then a newer one exists, and
-                    // this one may be published early only.
+                    // this one may have only its early publication.
                     if (which.load(std::memory_order_acquire) == index) {
                         return lease;
                     }

@@ -20,8 +20,8 @@ private:
     std::set<std::string> lines_;
 };
 
-// While it lives, its thread logs no line that `logged` holds, and `logged` takes those that it logs. The
-// innermost one applies.
+// While it lives, its thread does not log again the lines that are in `logged`, and adds the new ones to it.
+// The innermost one applies.
 class LogOnce {
 public:
     explicit LogOnce(LoggedLines& logged) noexcept;
