@@ -8,7 +8,8 @@ namespace fathom {
 namespace {
 
 constexpr double kCleanTime = 1.0; // [s] without a loss of the device before forces return
-// A region counts as pressed from this reaction [N] on; with soft springs, from this spring length [m] on.
+// A region counts as pressed if the reaction exceeds this force [N] or, with soft springs, the spring exceeds
+// this length [m].
 constexpr double kPressedForce = 0.5, kPressedLength = 0.0005;
 
 // The pose that the hand commands before the first step.

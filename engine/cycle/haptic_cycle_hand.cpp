@@ -14,7 +14,8 @@ namespace {
 constexpr double kPartGone = 5.0, kMinPartGone = SurfaceNoise::kBand, kMaxPartGone = 0.005,
                  kStillHeld = 0.0005;
 constexpr double kSameWay = 0.8; // cosine between directions that count as the same one
-// [N] The end of a larger one fades, also if its surface only went back: it would be felt as a blow.
+// [N] A larger force fades out even if its surface only moved back. Without the fade the pilot would feel a
+// jolt.
 constexpr double kFollowedForce = 3.0;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 

@@ -30,8 +30,8 @@ public:
 
     static constexpr double kInTime = 2.5;  // ticks: an answer of this age is not late
     static constexpr double kMaxLead = 0.2; // [s]
-    static constexpr double kMaxReach =
-        0.02; // [m] largest growth of the reach for late answers; a pressed arm adds as much again
+    // [m] largest growth of the reach for late answers; a pressed arm can add another 0.02 m
+    static constexpr double kMaxReach = 0.02;
     static constexpr double kHandAccel = 5.0; // [m/s^2] that a hand may add meanwhile
     static constexpr double kSmooth = 0.005;  // [s] average of the velocity
 

@@ -157,7 +157,7 @@ dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew,
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
     const double fall = slew >= kFastSlew * ramp ? rise : std::max(options_.period, elapsed) * ramp;
     const dvec3 next = limitSlew(wanted, before, rise, fall);
-    // No slew limit outlives a ramp. A force that turned as well would change by more.
+    // The slew limit must not delay the end of a ramp. A force that turned as well would change by more.
     const double most = std::max(ramps_.fadeGain() * limit, glm::length(before) - fall);
     return glm::length(next) > most * (1.0 + kRounding) ? clampLength(before, most) : next;
 }

@@ -29,9 +29,10 @@ Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 // v shorter by `by`, same direction; zero if it was not longer.
 dvec3 shortenedBy(const dvec3& v, double by) noexcept;
 
-// The force or torque after one tick. What of `previous` is not wanted becomes shorter by `fall`, also where
-// it points the wrong way or lies across; what is wanted rises by `rise`. With a fall that is no larger it is
-// one step of `rise` on the straight line. Never longer than the longer of both, so within the size limits.
+// The force or torque after one tick. The part of `previous` that is not wanted becomes shorter by `fall`,
+// including what opposes the wanted force or is perpendicular to it; what is wanted rises by `rise`. With a
+// fall that is no larger it is one step of `rise` on the straight line. Never longer than the longer of both,
+// so within the size limits.
 dvec3 limitSlew(const dvec3& wanted, const dvec3& previous, double rise, double fall) noexcept;
 
 // One-pole low-pass y += a (x - y), a = 1 - exp(-2 pi f T). Its delay in ticks is n = (1 - a)/a: with H =

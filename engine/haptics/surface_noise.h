@@ -24,7 +24,7 @@ struct SurfaceNoiseInput {
 //
 // How slowly depends on whether the change stays. The mean over kWatch of the withheld force is near zero
 // while noise makes it change its sign, and near its size when a surface has moved. What stays is released
-// with the time constant kSettle. The rest is released with a time constant that grows by a second per second
+// with the time constant kSettle. The rest is released with a time constant that grows as fast as time passes
 // while the hand rests on the surface, up to kMaxSlowTime: so the felt surface is the mean of all surfaces
 // since the contact began.
 class SurfaceNoise {
