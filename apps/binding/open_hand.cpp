@@ -95,7 +95,8 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop, double seconds) {
                 fmt::format("{}: no usable sample in --seconds {:.4g}", hand.description(), seconds));
         }
         if (!reported && waited() > 1.0) {
-            log::warn("waiting for a usable sample of {}: check that it is plugged in and homed", hand.description());
+            log::warn("waiting for a usable sample of {}: check that it is plugged in and homed",
+                      hand.description());
             reported = true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
