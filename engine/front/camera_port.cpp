@@ -30,11 +30,11 @@ void requirePose(const std::string& place, const char* field, const Pose& pose) 
         const auto& [w, i, j, k] = pose.rotation;
         std::string value = "position";
         for (const double number : {x, y, z}) {
-            value += " " + significant(number, 6);
+            value.append(1, ' ').append(significant(number, 6));
         }
         value += ", rotation";
         for (const double number : {w, i, j, k}) {
-            value += " " + significant(number, 6);
+            value.append(1, ' ').append(significant(number, 6));
         }
         throw fathom::BadInput(place, field, value,
                                "a finite pose within 1000 km, whose quaternion is not zero");
