@@ -104,7 +104,7 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
 // wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick.
 double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept {
     const double left = interval_ - sinceData_, length = metricSize(way, k_);
-    if (fade_.active() || !(left > 0.0) || !(length > 0.0)) {
+    if (fade_.active() || !(left > 0.0) || !(length > kMinDirectionForce)) {
         return held_ = 0.0;
     }
     const double before = metricProduct(lastFelt_, way, k_) / length;
@@ -122,8 +122,9 @@ double Reaction::heldBack(const Wrench& way, double wanted, double byHand, doubl
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
     const double wanted = metricSize(wrench, k_);
     // Out of the regions: along the wanted reaction, or the last one.
-    const Wrench way = wanted > kMinDirectionForce ? wrench : lastFelt_;
-    const double length = metricSize(way, k_);
+    const bool ended = !(wanted > kMinDirectionForce) && lastFeltSize_ > kMinDirectionForce;
+    const Wrench way = ended ? lastFelt_ : wrench;
+    const double length = ended ? lastFeltSize_ : wanted;
     const double out =
         length > 0.0 ? (glm::dot(travel.moved, way.force) + glm::dot(travel.turned, way.torque)) / length
                      : 0.0;

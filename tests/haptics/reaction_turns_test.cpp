@@ -147,6 +147,22 @@ TEST_CASE("The end of a surface's force is over when the hand has moved out as f
     }
 }
 
+TEST_CASE("A reaction too small to be felt stays finite where it may not rise") {
+    for (const double depth : {1e-16, 5e-10, 5e-7, 9e-7, 2e-6}) {
+        CAPTURE(depth);
+        CornerHand hand;
+        hand.tick.mayRise = false;
+        hand.step();
+        hand.tick.newData = true;
+        hand.hand.z = -depth;
+        const dvec3 felt = hand.step();
+        CHECK(felt == dvec3(0.0));
+        hand.tick.mayRise = true;
+        CHECK(hand.step().z <= 1000.0 * depth);
+        CHECK(hand.step().z >= 0.0);
+    }
+}
+
 TEST_CASE("A reaction that begins elsewhere takes over nothing of one that ended") {
     CornerHand hand;
     hand.pressTo({0.0, 0.0, 0.01});
