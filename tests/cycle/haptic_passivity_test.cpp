@@ -139,6 +139,37 @@ TEST_CASE("With forces off the wrench stays zero, and an old energy debt is forg
     CHECK(rig.cycle->passivity().debt() == 0.0);
 }
 
+TEST_CASE("After contact the damping is below 1 N and ends within 90 ms, also while the hand turns") {
+    HapticRig rig(handScene("omega"), at(0, 0, 0.02));
+    rig.show(wallSet());
+    rig.sceneAges = false;
+    rig.ticks(300);
+    for (int i = 0; i < 300; ++i) { // 12 mm into the wall
+        rig.hand.position.z -= 0.022 / 300.0;
+        rig.step();
+    }
+    rig.forcesOff = true;
+    rig.ticks(300);
+    rig.forcesOff = false; // the force that returns is energy that the hand did not give
+    rig.ticks(2000);
+    int free = 0;
+    double braked = 0.0;
+    for (int i = 0; i < 500; ++i) {
+        rig.hand.position.z += 0.00015;
+        const double turn = 0.6 * std::sin(0.004 * i);
+        rig.hand.rotation = rotationExp({turn, 0.7 * turn, 0.3 * turn});
+        const StepRecord record = rig.step();
+        free += record.contactCount == 0 ? 1 : 0;
+        if (free > 0) {
+            CHECK(forceOf(record) < 1.0);
+            CHECK((free < 95 || forceOf(record) == 0.0));
+            braked = std::max(braked, forceOf(record));
+        }
+    }
+    CHECK(free > 300);
+    CHECK(braked > 0.5);
+}
+
 TEST_CASE("Guidance work on the hand does not count as generated energy") {
     Scene scene = handScene();
     scene.fixtures.emplace_back();
