@@ -2,6 +2,7 @@
 #include "apps/operate/painter.h"
 
 #include "engine/gpu/result.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +16,7 @@ using gpu::check;
 
 namespace {
 
-constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
+constexpr uint64_t kLongWait = 10'000'000'000; // [ns] a frame on a busy CPU device can take seconds
 
 } // namespace
 
@@ -68,19 +69,25 @@ bool Painter::finished(uint64_t patience) {
     return true;
 }
 
+void Painter::awaitFrame() {
+    if (!finished(kLongWait)) {
+        throw DeviceFailed("the window: the device did not finish a frame within 10 s");
+    }
+}
+
 void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
-    finished(kLongWait);
+    awaitFrame();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
     body(commands_);
     check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
     submit(false);
-    finished(kLongWait);
+    awaitFrame();
 }
 
 void Painter::uploadFonts() {
-    finished(kLongWait);
+    awaitFrame();
     if (host_) {
         host_->takeFonts();
         return;

@@ -21,7 +21,7 @@ class Image; // apps/output/image.h
 namespace fathom::operate {
 
 // Window thread. Needs an ImGui context during its lifetime. Every call throws DeviceFailed when the device
-// is lost; then destroy the painter before the device.
+// is lost or does not finish a frame; then destroy the painter before the device.
 class Painter {
 public:
     enum class By { Device, Cpu };
@@ -64,6 +64,7 @@ private:
     Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade);
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
+    void awaitFrame();                // throws DeviceFailed when it does not finish
     bool yields(const std::function<bool()>& busy);
     void stage(std::span<const Layer> layers);
     void record(std::span<const Layer> layers, ImDrawData* data, VkImage shown);

@@ -10,7 +10,8 @@
 //                        (submission with a timeline), drawing (other submission) and presenting lose the
 //                        device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR once,
 //                        waiting VK_ERROR_OUT_OF_HOST_MEMORY, allocating VK_ERROR_OUT_OF_DEVICE_MEMORY;
-//                        surface is lost from the next presentation on
+//                        unfinished ends a wait for drawing as if its time had passed; surface is lost from
+//                        the next presentation on
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
@@ -155,6 +156,9 @@ VKAPI_ATTR VkResult VKAPI_CALL waitFences(VkDevice device, uint32_t count, const
         const std::lock_guard lock(mutex);
         if (devices[keyOf(device)].lost && lossOf() == VK_ERROR_DEVICE_LOST) {
             return VK_ERROR_DEVICE_LOST;
+        }
+        if (askedFor("unfinished")) {
+            return VK_TIMEOUT;
         }
         pass = devices[keyOf(device)].waitFences;
     }

@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 
 using namespace fathom;
@@ -56,6 +57,29 @@ Difference differenceOf(const std::vector<uint32_t>& a, const std::vector<uint32
     return d;
 }
 
+// A window drawn by a device that fails on request.
+struct FailingWindow {
+    const testing::ScratchFolder folder;
+    const std::filesystem::path trigger = folder / "trigger";
+    const Losing losing{trigger.string(), 0};
+    gpu::Instance instance{testing::Vulkan::validation()};
+    gpu::Device device{instance, testing::Vulkan::selector(), gpu::Drawing::Offscreen};
+    testing::LaidScreen laid;
+    std::optional<Painter> painter;
+
+    FailingWindow() {
+        laid.loadFontsFor({kSize.width, kSize.height}, 1.0);
+        laid.draw();
+        painter.emplace(instance, device, nullptr, Painter::By::Device);
+        REQUIRE(draws(kSize));
+    }
+    bool draws(VkExtent2D size) {
+        return painter->draw(size, {}, ImGui::GetDrawData(), [] { return false; });
+    }
+    // The next call of this kind fails.
+    void fail(const char* call) const { std::ofstream(trigger) << call; }
+};
+
 } // namespace
 
 TEST_CASE("Device and CPU draw the same window") {
@@ -85,22 +109,18 @@ TEST_CASE("Device and CPU draw the same window") {
 }
 
 TEST_CASE("A window that finds no memory for a new size still draws at the old one") {
-    const testing::ScratchFolder folder;
-    const std::filesystem::path trigger = folder / "trigger";
-    const Losing losing(trigger.string(), 0);
-    gpu::Instance instance(testing::Vulkan::validation());
-    gpu::Device device(instance, testing::Vulkan::selector(), gpu::Drawing::Offscreen);
-    testing::LaidScreen laid;
-    laid.loadFontsFor({kSize.width, kSize.height}, 1.0);
-    laid.draw();
-    Painter painter(instance, device, nullptr, Painter::By::Device);
-    const auto draws = [&](VkExtent2D size) {
-        return painter.draw(size, {}, ImGui::GetDrawData(), [] { return false; });
-    };
-    REQUIRE(draws(kSize));
-    REQUIRE(painter.frameImage(0)); // the frame is done
-    std::ofstream(trigger) << "allocating";
-    CHECK_THROWS_AS(draws({kSize.width + 8, kSize.height}), OutOfMemory);
-    CHECK_FALSE(std::filesystem::exists(trigger));
-    CHECK(draws(kSize));
+    FailingWindow window;
+    REQUIRE(window.painter->frameImage(0)); // the frame is done
+    window.fail("allocating");
+    CHECK_THROWS_AS(window.draws({kSize.width + 8, kSize.height}), OutOfMemory);
+    CHECK_FALSE(std::filesystem::exists(window.trigger));
+    CHECK(window.draws(kSize));
+}
+
+TEST_CASE("A screenshot waits for a frame that takes long, and never records over it") {
+    FailingWindow window;
+    window.fail("unfinished");
+    CHECK_THROWS_WITH_AS(window.painter->frameImage(0),
+                         "the window: the device did not finish a frame within 10 s", DeviceFailed);
+    CHECK(window.painter->frameImage(0));
 }
