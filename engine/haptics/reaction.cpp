@@ -18,6 +18,7 @@ constexpr double kPushTime = 0.012;         // [s] in which new data pushes a to
 constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
 constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
 constexpr double kTurnedLoss = 2.0;         // [N] with stiff springs: a larger loss that turns it fades
+constexpr double kHeldShare = 0.05;         // of what is held back, by which a small spring counts as larger
 constexpr double kSameWay = 0.8; // cosine between a reaction and the former one, which it continues
 
 } // namespace
@@ -64,6 +65,20 @@ void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexc
     noise_.settleAt(wanted); // what fades contains what was withheld
 }
 
+// A reaction that ended and begins in another direction begins at zero, and what is left of the former one
+// fades for the rest of the frame.
+bool Reaction::beginElsewhere(const Wrench& wanted, const ReactionInput& input) noexcept {
+    const double size = metricSize(wanted, k_), left = interval_ - sinceData_;
+    if (!ended_ || !(held_ > kMinHeld) || !(left > 0.0) || !(size > kMinDirectionForce) ||
+        metricProduct(lastFelt_, wanted, k_) > kSameWay * size * lastFeltSize_) {
+        return false;
+    }
+    fade_.begin(limitSize(lastFelt_, input.forceLimit, input.torqueLimit), 0.0, k_, left);
+    noise_.settleAt(wanted);
+    size_ = held_ = 0.0;
+    return true;
+}
+
 // Begins to fade when new data took the reaction of a tool that lags, or of one of several regions. Ends when
 // the reaction is back.
 void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
@@ -77,6 +92,9 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
         } else if (input.lags && pushed() && size < size_ - byHand - band) {
             beginFade(wanted, input);
         }
+        return;
+    }
+    if (beginElsewhere(wanted, input)) {
         return;
     }
     const double along = metricProduct(lastFelt_, wanted, k_);
@@ -108,14 +126,12 @@ double Reaction::heldBack(const Wrench& way, double wanted, double byHand, doubl
         return held_ = 0.0;
     }
     const double before = metricProduct(lastFelt_, way, k_) / length;
-    const bool same = before > kSameWay * lastFeltSize_, ended = !(wanted > kMinDirectionForce);
-    if (ended_ && !same) {
-        held_ = 0.0;
-    } else if (same && pushed()) {
+    if (pushed() && before > kSameWay * lastFeltSize_) {
         held_ = std::max(held_, before - byHand - wanted);
     }
-    ended_ = ended;
-    const double kept = ended ? std::max(0.0, held_ - released) : held_ * wanted / (wanted + released);
+    ended_ = !(wanted > kMinDirectionForce);
+    const double had = wanted + kHeldShare * held_;
+    const double kept = ended_ ? std::max(0.0, held_ - released) : held_ * had / (had + released);
     return held_ = kept * (1.0 - std::min(1.0, elapsed_ / left));
 }
 

@@ -74,6 +74,7 @@ private:
     double rate(double appeared) noexcept;
     double heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
+    bool beginElsewhere(const Wrench& wanted, const ReactionInput& input) noexcept;
     void fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
     Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;
     Wrench limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept;

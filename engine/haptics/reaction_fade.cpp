@@ -15,11 +15,11 @@ constexpr double kYieldTime = 0.02; // [s] time constant of the part that a reac
 
 } // namespace
 
-void ReactionFade::begin(const Wrench& lost, double kept, double k) noexcept {
+void ReactionFade::begin(const Wrench& lost, double kept, double k, double time) noexcept {
     lost_ = lost;
     size_ = metricSize(lost, k);
     kept_ = kept;
-    left_ = kTime;
+    time_ = left_ = time;
     replaced_ = 0.0;
 }
 
@@ -34,8 +34,8 @@ Wrench ReactionFade::step(const Wrench& reaction, double released, double k, dou
         return {};
     }
     replaced_ = product < 0.0 ? replaced_ : std::max(replaced_, (size - kept_) / size_);
-    left_ -= elapsed + kTime * released / size_;
-    const double share = left_ / kTime - replaced_;
+    left_ -= elapsed + time_ * released / size_;
+    const double share = left_ / time_ - replaced_;
     left_ = share > 0.0 ? left_ : 0.0;
     return scaled(lost_, std::max(0.0, share));
 }

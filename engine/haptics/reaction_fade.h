@@ -12,8 +12,8 @@ public:
     static constexpr double kTime = 0.2; // [s]
 
     // Begins, or begins anew. lost: on the hand, without what the regions that remain still give, which
-    // is `kept` [N].
-    void begin(const Wrench& lost, double kept, double k) noexcept;
+    // is `kept` [N]. time [s]: until it is zero.
+    void begin(const Wrench& lost, double kept, double k, double time = kTime) noexcept;
     void end() noexcept { left_ = 0.0; }
 
     // The rest in this tick. A reaction that grows beyond `kept` takes the place of as much of it for good,
@@ -27,9 +27,9 @@ public:
 
 private:
     Wrench lost_;
-    double size_ = 0.0, kept_ = 0.0; // [N]
-    double left_ = 0.0;              // [s]
-    double replaced_ = 0.0;          // share of it whose place was taken
+    double size_ = 0.0, kept_ = 0.0;   // [N]
+    double time_ = kTime, left_ = 0.0; // [s]
+    double replaced_ = 0.0;            // share of it whose place was taken
 };
 
 } // namespace fathom

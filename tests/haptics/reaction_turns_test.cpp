@@ -174,6 +174,51 @@ TEST_CASE("A reaction that begins elsewhere takes over nothing of one that ended
     CHECK(felt.y <= 0.21);
 }
 
+TEST_CASE("A region that appears while another one's force ends begins at zero, and the rest still ends") {
+    for (const int ticks : {1, 8, 15}) {
+        CAPTURE(ticks);
+        CornerHand hand;
+        hand.pressTo({0.0, 0.0, 0.005});
+        hand.tick.newData = true;
+        hand.wall = -0.02;
+        dvec3 before{0.0};
+        for (int i = 0; i < ticks; ++i) {
+            before = hand.step();
+        }
+        hand.side = 0.003; // not by the hand: 3 N
+        for (int i = ticks; i < 34; ++i) {
+            const dvec3 felt = hand.step();
+            CHECK(felt.y - before.y < 0.11);
+            CHECK(before.z - felt.z < 0.35);
+            CHECK(felt.z <= before.z);
+            before = felt;
+        }
+        CHECK(before.z == 0.0);
+        CHECK(before.y > 0.0);
+    }
+}
+
+TEST_CASE("A surface that goes back nearly to a hand that moves out ends its force gradually, too") {
+    for (const double rest : {5e-6, 2e-5, 5e-5}) {
+        for (const double speed : {2e-6, 1e-5, 3e-5}) { // [m] per tick
+            CAPTURE(rest);
+            CAPTURE(speed);
+            CornerHand hand;
+            hand.pressTo({0.0, 0.0, 0.005});
+            hand.tick.newData = true;
+            hand.wall = -0.005 + rest;
+            double before = 5.0;
+            for (int i = 0; i < 34; ++i) {
+                hand.hand.z += speed;
+                const double felt = hand.step().z;
+                CHECK(before - felt < 0.7); // at once it would be 5 N
+                before = felt;
+            }
+            CHECK(before < 0.06);
+        }
+    }
+}
+
 TEST_CASE("What one region loses is not felt on another one") {
     for (const int ticks : {0, 3}) { // after the frame, until the tool follows
         CAPTURE(ticks);
