@@ -94,6 +94,7 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.lags = input.lags;
     tick.forceLimit = ramps_.limitScale() * options_.forceLimit;
     tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
+    tick.rendered = metricSize(previous_, input.springs.metricRadius);
     return reaction_.step(tick);
 }
 

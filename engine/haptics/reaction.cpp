@@ -119,15 +119,17 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
 // What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction or
 // ends: else one region's force would be felt on another. It falls to zero until the next frame is due, and
 // with the spring if the hand moves out. way: of the reaction, or of the last one that was felt if it ended.
-// wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick.
-double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept {
+// wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick. rendered [N]: as
+// in ReactionInput; what was not felt is not held back.
+double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released,
+                          double rendered) noexcept {
     const double left = interval_ - sinceData_, length = metricSize(way, k_);
     if (fade_.active() || !(left > 0.0) || !(length > kMinDirectionForce)) {
         return held_ = 0.0;
     }
     const double before = metricProduct(lastFelt_, way, k_) / length;
     if (pushed() && before > kSameWay * lastFeltSize_) {
-        held_ = std::max(held_, before - byHand - wanted);
+        held_ = std::max(held_, std::min(before - byHand, rendered) - wanted);
     }
     ended_ = !(wanted > kMinDirectionForce);
     const double had = wanted + kHeldShare * held_;
@@ -150,7 +152,7 @@ Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const Rea
     const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     const double held = heldBack(way, wanted, input.springs.stiffness * travel.length,
-                                 input.springs.stiffness * std::max(0.0, out));
+                                 input.springs.stiffness * std::max(0.0, out), input.rendered);
     size_ = std::min(wanted + held, most);
     return size_ != wanted ? scaled(way, size_ / length) : wrench;
 }

@@ -21,6 +21,7 @@ struct ReactionInput {
     bool vanished = false; // the regions that pressed, or some of them, are gone although nothing moved
     bool lags = false;     // the tool did not reach `allowed`
     double forceLimit = 1e9, torqueLimit = 1e9; // [N], [N m] delivered at most: what fades begins there
+    double rendered = 1e9; // [N] by the device in the last tick, torque counted as torque / k
 };
 
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
@@ -72,7 +73,8 @@ private:
     Travel travelOf(const Pose& end) noexcept;
     bool pushed() const noexcept;
     double rate(double appeared) noexcept;
-    double heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept;
+    double heldBack(const Wrench& way, double wanted, double byHand, double released,
+                    double rendered) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
     bool beginElsewhere(const Wrench& wanted, const ReactionInput& input) noexcept;
     void fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;

@@ -135,6 +135,17 @@ TEST_CASE("A surface that goes back to the hand or beyond ends its force within 
     }
 }
 
+TEST_CASE("What the device did not render is not held back") {
+    CornerHand hand;
+    hand.pressTo({0.0, 0.0, 0.01});
+    hand.tick.newData = true;
+    hand.tick.rendered = 2.0; // [N] of 10, for example while forces return
+    hand.wall = -0.02;
+    const double felt = hand.step().z;
+    CHECK(felt < 2.0);
+    CHECK(felt > 1.9);
+}
+
 TEST_CASE("The end of a surface's force is over when the hand has moved out as far as it was pressed") {
     CornerHand hand;
     hand.pressTo({0.0, 0.0, 0.004});
