@@ -8,7 +8,7 @@ namespace fathom {
 
 void SkippedFrames::add(const std::string& camera, const std::string& cause, uint32_t frames) {
     count_ += frames;
-    last_ = cause;
+    last_ = frames > 0 ? cause : last_; // else none is lost
     if (causes_.size() < kMaxCauses && causes_.insert(cause).second) {
         log::warn("{}: {}{} (logged once)", camera, frames > 0 ? "frame skipped: " : "", cause);
     }

@@ -171,9 +171,10 @@ double finite(const char* name, double value) {
 }
 
 void checkNoMask(const char* name, const py::array& array) {
-    if (py::isinstance(array, py::module_::import("numpy.ma").attr("MaskedArray"))) {
+    const py::module_ masked = py::module_::import("numpy.ma");
+    if (py::isinstance(array, masked.attr("MaskedArray")) && masked.attr("is_masked")(array).cast<bool>()) {
         throw py::value_error(std::string(name) +
-                              ": numpy.ma.MaskedArray (allowed: an array without a mask; use filled(0))");
+                              ": masked values (allowed: an array without a mask; use filled(0))");
     }
 }
 

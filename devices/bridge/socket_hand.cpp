@@ -172,7 +172,7 @@ void SocketHand::drain() noexcept {
 // pause of the engine they are old for a few ticks only.
 void SocketHand::checkAge(uint64_t now) noexcept {
     oldInRow_ = now - lastTime_ > FATHOM_DOOR_SILENCE_NS ? oldInRow_ + 1 : 0;
-    if (oldInRow_ == kMaxOld && (status_ & kReady) == kReady) {
+    if (oldInRow_ >= kMaxOld && (status_ & kReady) == kReady) {
         fathom_door_hand packet{};
         packet.header.time_ns = lastTime_;
         refuse(SocketRefusal::Kind::Stamp, packet, sizeof packet);

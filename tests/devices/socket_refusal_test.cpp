@@ -26,6 +26,7 @@ struct WrongBridge {
                 packet.orientation[0] = length.load();
                 packet.header.time_ns -= behind.load();
                 packet.header.size += extra.load();
+                packet.status &= homed.load() ? ~0u : ~static_cast<uint32_t>(FATHOM_DOOR_HOMED);
                 engine.send(packet);
             }
         }) {}
@@ -38,7 +39,7 @@ struct WrongBridge {
     std::atomic<double> length{1.0};
     std::atomic<uint64_t> behind{0}; // [ns]
     std::atomic<uint32_t> extra{0};
-    std::atomic<bool> stop{false};
+    std::atomic<bool> homed{true}, stop{false};
     DeviceSocket endpoint, engine;
     std::thread thread;
 };
@@ -71,7 +72,7 @@ TEST_CASE("The refusal of a bridge's first packet has one list of allowed values
         CHECK(eventually([&] { return (engine = endpoint.accept()).open(); }));
         CHECK(engine.send(packet) == SocketEvent::Packet);
     });
-    const std::string refusal = refusalOf([&] { SocketHand(folder.endpoint(), 4); });
+    const std::string refusal = refusalOf([&] { SocketHand(folder.endpoint(), 4, 60.0); });
     bridge.join();
     CHECK(refusal == std::string("socket: ").append(folder.endpoint()).append(": ").append(found));
 }
@@ -86,7 +87,7 @@ TEST_CASE("The name that a bridge sends cannot control a terminal or forge a lin
         CHECK(eventually([&] { return (engine = endpoint.accept()).open(); }));
         CHECK(engine.send(packet) == SocketEvent::Packet);
     });
-    const SocketHand hand(folder.endpoint(), 4);
+    const SocketHand hand(folder.endpoint(), 4, 60.0);
     bridge.join();
     CHECK(hand.description() ==
           std::string(" [31m ? hand at ").append(folder.endpoint()).append(" (preset x)"));
@@ -97,7 +98,7 @@ TEST_CASE("The log says once why the samples of a bridge are refused, and they c
     SocketFolder folder;
     const Listening log;
     WrongBridge bridge(folder);
-    SocketHand hand(folder.endpoint(), 4);
+    SocketHand hand(folder.endpoint(), 4, 60.0);
     const auto alive = [&] {
         hand.read(0.0);
         return hand.alive();
@@ -131,11 +132,29 @@ TEST_CASE("The log says once why the samples of a bridge are refused, and they c
     CHECK(eventually(alive));
 }
 
+TEST_CASE("A wrong clock is named, also if the device homes later") {
+    SocketFolder folder;
+    const Listening log;
+    WrongBridge bridge(folder);
+    bridge.homed.store(false);
+    bridge.behind.store(2000000000);
+    SocketHand hand(folder.endpoint(), 4, 60.0);
+    for (int i = 0; i < 200; ++i, pauseMs(1)) {
+        hand.read(0.0);
+    }
+    CHECK(log.count("samples refused") == 0);
+    bridge.homed.store(true);
+    CHECK(eventually([&] {
+        hand.read(0.0);
+        return log.count(" s behind CLOCK_MONOTONIC (allowed: at most 0.01 s)") > 0;
+    }));
+}
+
 TEST_CASE("Samples that were late because the engine paused are not reported as refused") {
     SocketFolder folder;
     const Listening log;
     WrongBridge bridge(folder);
-    SocketHand hand(folder.endpoint(), 4);
+    SocketHand hand(folder.endpoint(), 4, 60.0);
     for (int i = 0; i < 3; ++i) {
         CHECK(eventually([&] {
             hand.read(0.0);

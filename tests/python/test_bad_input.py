@@ -26,15 +26,16 @@ class BadInput(unittest.TestCase):
         with self.assertRaises(TypeError):
             run.process(None, stamp=1)
 
-    def test_an_array_with_a_mask_is_refused_because_nothing_reads_the_mask(self):
+    def test_masked_values_are_refused_because_nothing_reads_the_mask(self):
         pixels = numpy.zeros((wall.HEIGHT, wall.WIDTH, 3), numpy.uint8)
         run = wall.lockstep(colour_format=fathom.ColourFormat.RGB)
-        with self.refused("depth: numpy.ma.MaskedArray \\(allowed: an array without a mask; use filled\\(0\\)\\)"):
+        with self.refused("depth: masked values \\(allowed: an array without a mask; use filled\\(0\\)\\)"):
             run.process(numpy.ma.array(wall.depth(), mask=True), pixels, stamp=1)
-        with self.refused("colour: numpy.ma.MaskedArray"):
-            run.process(wall.depth(), numpy.ma.array(pixels, mask=False), stamp=1)
-        with self.refused("pose: numpy.ma.MaskedArray"):
-            fathom.Pose(numpy.ma.array(numpy.eye(4), mask=numpy.eye(4) > 2))
+        with self.refused("colour: masked values"):
+            run.process(wall.depth(), numpy.ma.array(pixels, mask=pixels == 0), stamp=1)
+        with self.refused("pose: masked values"):
+            fathom.Pose(numpy.ma.array(numpy.eye(4), mask=numpy.eye(4) > 0.5))
+        fathom.Pose(numpy.ma.array(numpy.eye(4), mask=False))  # as readers of files return arrays
         run.process(numpy.ma.array(wall.depth(), mask=True).filled(0), pixels, stamp=1)
         self.assertEqual(len(run.regions()), 0)
 
