@@ -37,8 +37,13 @@ std::optional<fs::path> colourFolder(const fs::path& folder) {
     return std::nullopt;
 }
 
-// The registered lens of other programs where the file has none that is read.
-CameraInfo open3dCamera(const fs::path& mark) {
+constexpr const char *kMatrixLens = "cam_K.txt", *kOwnLens = "intrinsics.json";
+
+// The registered lens of other programs where the file has none that is read. Throws BadInput for kOwnLens.
+CameraInfo recordedCamera(const fs::path& mark) {
+    if (mark.filename() == kOwnLens) {
+        return readIntrinsics(mark, ScaleRule::Unchecked).camera;
+    }
     try {
         return fs::is_regular_file(mark) ? readIntrinsics(mark, ScaleRule::Optional).camera : CameraInfo{};
     } catch (const BadInput&) {
@@ -66,7 +71,7 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     RecordingLayout layout;
     layout.intrinsics = request.lens ? *request.lens : readIntrinsics(request.mark, ScaleRule::Optional);
     if (request.lens && !request.depthOnly) {
-        keepRecordedColour(layout.intrinsics, [&] { return open3dCamera(request.mark); });
+        keepRecordedColour(layout.intrinsics, [&] { return recordedCamera(request.mark); });
     }
     if (request.lens && fs::is_regular_file(request.mark)) {
         keepRecordedUnit(layout.intrinsics, request.mark.filename().string(),
@@ -75,8 +80,6 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     layout.index = numberedPairs(request);
     return layout;
 }
-
-constexpr const char *kMatrixLens = "cam_K.txt", *kOwnLens = "intrinsics.json";
 
 // FoundationPose and BundleSDF: one lens for registered images, in millimetres.
 RecordingLayout readMatrixFolder(const LayoutRequest& request) {

@@ -117,6 +117,20 @@ TEST_CASE("A file of one lens is refused where the folder's relation of depth an
     CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
 }
 
+TEST_CASE("A relation of colour that cannot be read is refused with and without an index alike") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 500);
+    std::string text = kOwnLenses;
+    const std::string unit = "[0, 0, 0, 1]";
+    folder.write("intrinsics.json", text.replace(text.find(unit), unit.size(), "[0.9999, 0, 0, 0.01]"));
+    folder.write("lens.json", kLensAlone + "}");
+    const SourceOptions options{.intrinsics = folder.path() / "lens.json"};
+    const std::string refused = recordingRefusal(folder.path(), options);
+    lineSays(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
+    folder.write("associations.txt", "0.0 rgb/0.png 0.0 depth/0.png\n");
+    CHECK(recordingRefusal(folder.path(), options) == refused);
+}
+
 TEST_CASE(
     "The unit that a folder's files state stays where a file replaces the lens; two that differ are named") {
     const TemporaryFolder open3d, indexed, bop, frames, tum;
