@@ -117,6 +117,15 @@ TEST_CASE("The log says once why the samples of a bridge are refused, and they c
         bridge.behind.store(2000000000);
         words = " s behind CLOCK_MONOTONIC (allowed: at most 0.01 s)";
     }
+    SUBCASE("another clock, of a device that homes later") {
+        bridge.homed.store(false);
+        bridge.behind.store(2000000000);
+        for (int i = 0; i < 200; ++i, pauseMs(2)) {
+            hand.read(0.0);
+        }
+        bridge.homed.store(true);
+        words = " s behind CLOCK_MONOTONIC (allowed: at most 0.01 s)";
+    }
     SUBCASE("size") {
         bridge.extra.store(1);
         words = "connection ended: size 153 (allowed: 152)";
