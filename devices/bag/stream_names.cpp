@@ -63,11 +63,6 @@ std::string cameraOf(const std::string& topic) {
     return base.substr(0, base.find_last_of('/') + 1);
 }
 
-bool endsCamera(const std::string& word) {
-    constexpr std::array<std::string_view, 5> kCameras{"camera", "cam", "sensor", "ai", "sense"};
-    return std::ranges::find(kCameras, word) != kCameras.end();
-}
-
 // Follows the words of a topic, part by part.
 class RoleOfWords {
 public:
@@ -77,7 +72,7 @@ public:
     size_t decided() const { return decided_; }                // number of parts up to the one that decides
 
 private:
-    void use(const std::string& word, bool first);
+    void use(const std::vector<std::string>& words, size_t at, bool first);
 
     NamedRole role_ = NamedRole::None;
     bool target_ = false, named_ = false;         // the next word, and the last one, name another camera
@@ -87,10 +82,10 @@ private:
     size_t parts_ = 0, decided_ = 0;
 };
 
-void RoleOfWords::use(const std::string& word, bool first) {
-    const WordUse use = useOf(word, first && !depthHere_);
+void RoleOfWords::use(const std::vector<std::string>& words, size_t at, bool first) {
+    const WordUse use = useOf(words[at], first && !depthHere_);
     if (use == WordUse::Derived || use == WordUse::Unscaled) {
-        derived_ = derived_ || role_ == NamedRole::Depth;
+        derived_ = derived_ || (role_ == NamedRole::Depth && describesImages(words, at));
         unscaledHere_ = unscaledHere_ || use == WordUse::Unscaled;
         return;
     }
@@ -129,7 +124,7 @@ void RoleOfWords::add(const std::vector<std::string>& words, bool first, bool la
         } else if (!((word == "distance" || word == "relative") && more && words[i + 1] == "to")) {
             // Else of ranges, of an image's plane, or of a frame.
             named_ = false;
-            use(word, first);
+            use(words, i, first);
         }
     }
     const bool camera = !words.empty() && endsCamera(words.back());
@@ -148,7 +143,10 @@ RoleOfWords roleOfWords(const std::string& topic) {
     RoleOfWords all;
     const std::vector<std::string> parts = partsOf(baseTopic(topic));
     for (size_t i = 0; i < parts.size(); ++i) {
-        all.add(wordsOf(parts[i]), i == 0 && parts.size() > 1, i + 1 == parts.size());
+        const bool last = i + 1 == parts.size();
+        // Below a folder of depth cameras: the name of a computer.
+        const bool computer = i == 1 && !last && (parts[i] == "edge" || parts[i] == "flow");
+        all.add(computer ? std::vector<std::string>{} : wordsOf(parts[i]), i == 0 && !last, last);
     }
     return all;
 }

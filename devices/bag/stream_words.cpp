@@ -106,13 +106,13 @@ void StreamChooser::refuseAll() const {
     }
     seen = seen.empty() ? "no images" + otherTopics() : seen;
     const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
-    refuse(
-        "topics", seen,
-        wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
-            (options_.depth.empty()
-                 ? ", whose name is not one of infrared or inverse depth; mono16 under a name of depth; or "
-                   "depth=TOPIC; or organised sensor_msgs/PointCloud2"
-                 : ""));
+    refuse("topics", seen,
+           wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
+               (options_.depth.empty()
+                    ? ", whose name is not one of infrared, inverse depth, or images computed from "
+                      "depth (edges, gradient); mono16 under a name of depth; or depth=TOPIC; or "
+                      "organised sensor_msgs/PointCloud2"
+                    : ""));
 }
 
 // What a file without images holds.

@@ -155,6 +155,20 @@ bool isUsualWord(const std::string& word) {
     return isDigit(word.front()) || useOf(word, false) != WordUse::None || among(kUsual, word);
 }
 
+bool endsCamera(const std::string& word) {
+    constexpr std::array<std::string_view, 5> kCameras{"camera", "cam", "sensor", "ai", "sense"};
+    return among(kCameras, word);
+}
+
+bool describesImages(const std::vector<std::string>& words, size_t at) {
+    const bool denied = at > 0 && (words[at - 1] == "without" || words[at - 1] == "no");
+    const auto rest = words.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+    const bool participle = rest != words.end() && *rest == "aligned";
+    return !denied && !participle && std::all_of(rest, words.end(), [](const std::string& word) {
+        return isUsualWord(word) && !endsCamera(word);
+    });
+}
+
 std::vector<std::string> tokensOf(const std::string& name) {
     std::vector<std::string> tokens = casedTokensOf(name);
     std::ranges::transform(tokens, tokens.begin(), lower);

@@ -2,6 +2,7 @@
 // The words in the name of a topic, and what each word means for its images.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ enum class WordUse {
 WordUse useOf(const std::string& word, bool firstPart);
 // Says how images are sent ("raw", "rect"), has a use, or is a number: nothing that hints at other images.
 bool isUsualWord(const std::string& word);
+// The last word of a part that names a camera: "edge_cam".
+bool endsCamera(const std::string& word);
+// Whether the images are what words[at] names, as in "depth_gradient/image". Not in "depth_edge_preserving",
+// "depth_flow_aligned", "depth_without_edges" and "edge_cam".
+bool describesImages(const std::vector<std::string>& words, size_t at);
 // In lower case, split at signs.
 std::vector<std::string> tokensOf(const std::string& name);
 // Also split in camel case: "irImage" and "IRImage" are two words; but "DepthVis" is one, which has a use.

@@ -46,6 +46,9 @@ TEST_CASE("Inverse depth, and what programs compute from depth, are not depth by
                               "/cam/depth_flow",
                               "/cam/depth_residual",
                               "/cam/depth/curvature",
+                              "/cam/depth_edge_image",
+                              "/cam/depth_flow/image_raw",
+                              "/depth/gradient/image_raw",
                               "/depth_conf/image"}) {
         CAPTURE(topic);
         CHECK(namedRole(topic) == NamedRole::Infrared);
@@ -58,9 +61,26 @@ TEST_CASE("Inverse depth, and what programs compute from depth, are not depth by
         CAPTURE(topic);
         CHECK(namedRole(topic) == NamedRole::Depth);
     }
+    for (const char* topic :
+         {"/cam/depth_edge_preserving/image", "/cam/depth_edges_removed/image",
+          "/cam/depth_without_edges/image", "/cam/depth_edge_filtered/image", "/cam/depth_flow_aligned",
+          "/cam/depth_inv_brown/image", "/camera/depth/edge_cam/image", "/depth/flow/image_raw",
+          "/depth/edge/image_raw"}) { // filters, a lens model and computers
+        CAPTURE(topic);
+        CHECK(namedRole(topic) == NamedRole::Depth);
+    }
     CHECK(namedRole("/edge/camera/image") == NamedRole::None); // a computer
     CHECK(namedRole("/edge/color/image") == NamedRole::Colour);
     CHECK(namedDepthImage("/cam/inverse_depth/image")); // painted where its encoding is colour
+}
+
+TEST_CASE(
+    "A bag whose only image is computed from depth is refused with the kinds of names that are left out") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/cam/depth_gradient", depthImage(2000));
+    lineSays(streamRefusal(folder, maker), "whose name is not one of infrared, inverse depth, or images "
+                                           "computed from depth (edges, gradient); mono16");
 }
 
 TEST_CASE("What is computed from depth is not played instead of it, in whatever order the topics are") {
