@@ -90,37 +90,56 @@ bool holdsDepth(const fs::path& folder, bool named) {
     return false;
 }
 
+template <size_t N>
+bool anyAmong(const std::vector<std::string>& words, const std::array<std::string_view, N>& of) {
+    return std::ranges::any_of(
+        words, [&](const std::string& word) { return std::ranges::find(of, word) != of.end(); });
+}
+
+constexpr std::array<std::string_view, 6> kImageFolders{"depth", "rgb", "color", "colour", "image", "images"};
+constexpr std::array<std::string_view, 4> kPoses{"pose", "poses", "trajectory", "extrinsics"};
+
+// One of many files, as those of images.
+bool isNumbered(const std::vector<std::string>& words) {
+    return std::ranges::any_of(words, [](const std::string& word) {
+        return word.size() >= 3 && word.find_first_not_of("0123456789") == std::string::npos;
+    });
+}
+
 // The name of a file that by it may hold the lens in a form that is not read; empty = none.
-std::string lensLikeIn(const fs::path& folder) {
+std::string lensLikeIn(const fs::path& folder, bool numbered) {
     constexpr std::array<std::string_view, 8> kEndings{".json", ".txt", ".yaml", ".yml",
                                                        ".xml",  ".npy", ".csv",  ".bin"};
     constexpr std::array<std::string_view, 11> kWords{"lens",        "intrinsic",  "intrinsics", "calib",
                                                       "calibration", "camera",     "cameras",    "cam",
                                                       "camchain",    "transforms", "k"};
-    constexpr std::array<std::string_view, 4> kPoses{"pose", "poses", "trajectory", "extrinsics"};
-    const auto isAny = [](const std::vector<std::string>& words, const auto& of) {
-        return std::ranges::any_of(
-            words, [&](const std::string& word) { return std::ranges::find(of, word) != of.end(); });
-    };
     std::string first;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
         const std::string name = entry.path().filename().string();
         const std::vector<std::string> words = nameWords(entry.path().stem().string());
-        const bool like = endsAs(entry.path(), kEndings) && isAny(words, kWords) && !isAny(words, kPoses);
+        const bool like = endsAs(entry.path(), kEndings) && anyAmong(words, kWords) &&
+                          !anyAmong(words, kPoses) && (numbered || !isNumbered(words));
         const bool record3d = name == "metadata" && fs::is_regular_file(entry.path(), failed);
         first = (like || record3d) && (first.empty() || name < first) ? name : first;
     }
     return first;
 }
 
-// The same with its path from the folder: in it, in sparse/0/ of COLMAP, or one level below.
+// The same with its path from the folder: in it, in sparse/0/ of COLMAP, or one level below, where files of
+// poses and of single images have such names, too.
 std::string lensLikeFile(const fs::path& folder) {
     std::vector<fs::path> places{folder, folder / "sparse/0", folder / "colmap/sparse/0"};
-    const std::vector<fs::path> below = entriesOf(folder).folders;
-    places.insert(places.end(), below.begin(), below.end());
-    for (const fs::path& place : places) {
-        if (const std::string name = lensLikeIn(place); !name.empty()) {
+    const size_t named = places.size();
+    for (const fs::path& below : entriesOf(folder).folders) {
+        const std::vector<std::string> words = nameWords(below.filename().string());
+        if (!anyAmong(words, kPoses) && !anyAmong(words, kImageFolders)) {
+            places.push_back(below);
+        }
+    }
+    for (size_t i = 0; i < places.size(); ++i) {
+        const fs::path& place = places[i];
+        if (const std::string name = lensLikeIn(place, i < named); !name.empty()) {
             return (place / name).lexically_relative(folder).string();
         }
     }

@@ -182,6 +182,15 @@ TEST_CASE("A folder whose depth images lie elsewhere than in depth/ is refused w
     }
 }
 
+TEST_CASE("Files of poses and of single images are not named as the lens of a folder") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 500);
+    for (const char* name : {"poses/cam_0000.txt", "labels/cam_0001.json", "depth/camera_0001.npy"}) {
+        folder.write(name, "{}");
+        lineSays(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
+    }
+}
+
 TEST_CASE("An index with the backslashes of Windows names the same images") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
