@@ -180,11 +180,20 @@ bool namesScale(const std::string& key) {
     return key != kOwnScale && (isAny(plain, kWhole) || rate || (namesDepth(key) && holdsAny(plain, kKinds)));
 }
 
+// Of noise, or in another unit than metres.
+bool isNoMetres(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 5> kNoise{"noise", "sigma", "error", "micro", "percent"};
+    return std::ranges::any_of(words, [&](const std::string& word) {
+        return word == "um" || word == "mm" || holdsAny(word, kNoise);
+    });
+}
+
 // A field that by its name is a depth scale.
 struct NamedScale {
     JsonField field;
     std::string plain; // letters of its key
     bool ofDepth;      // surely: also images and worlds have a scale
+    bool metres;       // or units per metre, by its name
 };
 
 std::vector<NamedScale> namedScales(const JsonField& root) {
@@ -199,7 +208,8 @@ std::vector<NamedScale> namedScales(const JsonField& root) {
         const bool inner = &block != &blocks.front();
         for (const std::string& key : block.keys()) {
             if (namesScale(key) || (inner && key == kOwnScale)) {
-                all.push_back({block.at(key), plainLetters(key), inner || namesDepth(key)});
+                all.push_back({block.at(key), plainLetters(key), inner || namesDepth(key),
+                               !isNoMetres(nameWords(key))});
             }
         }
     }
@@ -267,7 +277,8 @@ std::optional<JsonField> foreignScale(const JsonField& root) {
 std::optional<OtherUnit> otherUnit(const JsonField& root, double unit) {
     constexpr double kRounded = 0.01;
     for (const NamedScale& scale : namedScales(root)) {
-        const double value = scale.ofDepth && scale.field.isNumber() ? scale.field.finite() : 0.0;
+        const double value =
+            scale.ofDepth && scale.metres && scale.field.isNumber() ? scale.field.finite() : 0.0;
         // "depth_resolution" may be a width, and "depth_shift" a distance.
         const bool size = scale.plain.find("resolution") != std::string::npos,
                    shift = scale.plain.find("shift") != std::string::npos;

@@ -153,6 +153,8 @@ TEST_CASE("Two depth scales of one file that contradict each other have a warnin
          {own + R"("depth_factor": 1000)", tum + R"("depth_factor": 5000)",
           own + R"("depth_scale": 0.0010000000474974513)", own + R"("depth_trunc": 3)",
           own + R"("scale": 0.05)", own + R"("depth_shift": 0.02)", own + R"("depth_resolution": 640)",
+          own + R"("depth_unit_um": 250)", own + R"("depthUnitMicrometres": 250)",
+          own + R"("depth_noise_scale": 0.005)", own + R"("depth_noise_factor": 0.01)",
           own + R"("depth_scale": 1)", own + R"("depth_unit": "mm")", own + R"("depth_scale": null)"}) {
         CAPTURE(fields);
         CHECK(warnings(fields) == "");
