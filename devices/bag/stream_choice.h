@@ -68,11 +68,11 @@ private:
     // A pose, why there is none, or why it may be wrong.
     struct FoundPose {
         std::optional<Pose> pose;
-        std::string warning, source = {};
+        std::string warning = {}, source = {};
     };
     static void doubtRig(Relation& relation, bool warns);
     FoundPose driverPose(const ImageStream& depth, const ImageStream& colour);
-    std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
+    FoundPose sdkPose(const ImageStream& depth, const ImageStream& colour);
     const MessageTopic* poseTopic(const ImageStream& depth, const ImageStream& colour) const;
     std::optional<Pose> topicPose(const MessageTopic* topic, std::string& fault);
     bool keepsRelation() const;

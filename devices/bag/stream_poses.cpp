@@ -31,7 +31,7 @@ bool nearlySame(const Pose& a, const Pose& b) {
 } // namespace
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
-    FoundPose found{sdkPose(depth, colour), "", parentTopic(baseTopic(colour.name), 2) + "/tf"};
+    FoundPose found = sdkPose(depth, colour);
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!found.pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
@@ -120,9 +120,9 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
 }
 
 // Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
-std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
+StreamChooser::FoundPose StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
     if (!isRealSenseTopic(depth.name) || !isRealSenseTopic(colour.name)) {
-        return std::nullopt;
+        return {};
     }
     const std::string ofDepth = parentTopic(baseTopic(depth.name), 2) + "/tf/",
                       ofColour = parentTopic(baseTopic(colour.name), 2) + "/tf/";
@@ -133,10 +133,10 @@ std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const Image
         const MessageTopic* other = file_.find(ofColour + topic.name.substr(ofDepth.size()));
         if (other != nullptr && !other->messages.empty()) {
             const Pose depthTf = ros::transform(file_.read(topic, 0));
-            return ros::transform(file_.read(*other, 0)) * inverse(depthTf);
+            return {ros::transform(file_.read(*other, 0)) * inverse(depthTf), "", other->name};
         }
     }
-    return std::nullopt;
+    return {};
 }
 
 // The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both;

@@ -165,6 +165,9 @@ TEST_CASE("A damaged text of a RealSense database is named, and never read as an
     Messages sheared = without(sdkMessages(), "Color_0/tf/");
     addText(sheared, kColourStream + "/tf/ref_0", "rotation=1,1,0,0,1,0,0,0,1;translation=0,0,0");
     CHECK(lineSays(databaseRefusal(folder, sheared), "extrinsics: missing"));
+    Messages far = without(sdkMessages(), "Color_0/tf/");
+    addText(far, kColourStream + "/tf/ref_0", "rotation=1,0,0,0,1,0,0,0,1;translation=15,0,0");
+    CHECK(lineSays(databaseRefusal(folder, far), kColourStream + "/tf/ref_0: 15 m between the lenses"));
     CHECK(lineSays(databaseRefusal(folder, without(sdkMessages(), "/image/data")), "no images but"));
 }
 
