@@ -33,6 +33,11 @@ std::string percentDecoded(const std::string& text) {
     return out;
 }
 
+bool sameButCapitals(const std::string& a, const std::string& b) {
+    return std::ranges::equal(
+        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
 // A mesh name: its package, empty for none, and the path in the package.
 struct MeshName {
     std::string package, path;
@@ -41,7 +46,7 @@ struct MeshName {
 MeshName partsOf(std::string name) {
     std::ranges::replace(name, '\\', '/'); // of URDFs made on Windows
     for (const std::string scheme : {"package://", "model://", "file://"}) {
-        if (name.starts_with(scheme)) {
+        if (sameButCapitals(name.substr(0, scheme.size()), scheme)) {
             const std::string rest = name.substr(scheme.size());
             const size_t slash = scheme == "file://" ? std::string::npos : rest.find('/');
             return slash == std::string::npos ? MeshName{"", rest}
@@ -51,21 +56,16 @@ MeshName partsOf(std::string name) {
     return {"", name};
 }
 
-// "https://" of an address that is no file's; empty = none.
+// "https://" of an address that is no file's; empty = none. One letter is a drive: "C://".
 std::string schemeOf(const std::string& name) {
     constexpr std::string_view kSign = "://";
     const size_t sign = name.find(kSign);
     const std::string scheme = sign == std::string::npos ? "" : name.substr(0, sign);
     const bool letters = std::ranges::all_of(
         scheme, [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '.' || c == '-'; });
-    return !letters || scheme.empty() || scheme == "package" || scheme == "model" || scheme == "file"
-               ? ""
-               : scheme + std::string(kSign);
-}
-
-bool sameButCapitals(const std::string& a, const std::string& b) {
-    return std::ranges::equal(
-        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+    const bool read = sameButCapitals(scheme, "package") || sameButCapitals(scheme, "model") ||
+                      sameButCapitals(scheme, "file");
+    return !letters || scheme.size() < 2 || read ? "" : scheme + std::string(kSign);
 }
 
 // The only entry of a folder whose name differs from `name` in capitals; empty = none, or several.

@@ -195,6 +195,19 @@ TEST_CASE("A missing mesh names the places that were searched and the key that a
     CHECK(refusal.find("arm.meshes names the folder") != std::string::npos);
 }
 
+TEST_CASE("The scheme of a mesh name may have capitals, and a drive of Windows is no address") {
+    for (const auto& [name, place] :
+         {std::pair<std::string, std::string>{"PACKAGE://some_arm/m.stl", "/some_arm/m.stl, "},
+          {"Model://some_arm/m.stl", "/some_arm/m.stl, "},
+          {"FILE:///no/m.stl", " /no/m.stl "},
+          {"C://m.stl", "/m.stl"}}) {
+        const std::string refusal = urdfRefusal("<link name='a'><collision><geometry><mesh filename='" +
+                                                name + "'/></geometry></collision></link>");
+        CHECK(refusal.find("not found; looked for ") != std::string::npos);
+        CHECK(refusal.find(place) != std::string::npos);
+    }
+}
+
 TEST_CASE("A mesh on the web is named as such, with the names that are read") {
     for (const std::string scheme : {"https://", "omniverse://"}) {
         const std::string name = scheme + "example.org/m.stl";
