@@ -119,8 +119,8 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
 // What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction or
 // ends: else one region's force would be felt on another. It falls to zero until the next frame is due, and
 // with the spring if the hand moves out. way: of the reaction, or of the last one that was felt if it ended.
-// wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick. rendered [N]: as
-// in ReactionInput; what was not felt is not held back.
+// wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick. rendered: as in
+// ReactionInput; what was not felt is not held back.
 double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released,
                           double rendered) noexcept {
     const double left = interval_ - sinceData_, length = metricSize(way, k_);
