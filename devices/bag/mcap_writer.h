@@ -26,8 +26,6 @@ public:
     void add(uint16_t channel, uint64_t time, std::span<const uint8_t> message);
     void finish();
 
-    uint64_t messages() const { return messages_; }
-
 private:
     struct Span {
         uint64_t first = UINT64_MAX, last = 0; // [ns]
