@@ -29,7 +29,8 @@ pybind11::array_t<double> array(const Vec3& v);
 // Throws ValueError "NAME: VALUE (allowed: ...)" for values that are not finite.
 double finite(const char* name, double value);
 
-// Throws ValueError for a numpy.ma array: nothing reads its mask, so masked depth would become points.
+// Throws ValueError for masked values of a numpy.ma array: nothing reads the mask, so masked depth would
+// become points.
 void checkNoMask(const char* name, const pybind11::array& array);
 
 // The images of one call, checked against the camera's description. They point into the arrays.

@@ -12,7 +12,7 @@ std::string text(const py::handle& object) {
     return py::str(object).cast<std::string>();
 }
 
-// Throws unless the array has this type and shape, without a mask, in rows without gaps and aligned.
+// Throws unless the array has this type and shape, without masked values, in rows without gaps and aligned.
 void checkArray(const char* name, const py::array& array, const py::dtype& type,
                 const std::vector<py::ssize_t>& shape, size_t alignment) {
     checkNoMask(name, array);

@@ -254,7 +254,7 @@ StreamChoice StreamChooser::choose() {
     if (!depth->lens && options_.intrinsics.empty()) {
         throw BadInput(file_.file().string() + ": " + depth->noLens);
     }
-    // Grey is not worth a word: nothing asks for it.
+    // Nothing asks for grey images, so a fault of theirs is not reported.
     const bool wanted =
         colour != nullptr && (colour->content != ros::Content::Grey || !options_.colour.empty());
     if (colour != nullptr && keepsRelation()) {

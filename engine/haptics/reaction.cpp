@@ -17,8 +17,8 @@ constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no dir
 constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
 constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
 constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
-constexpr double kTurnedLoss = 2.0;         // [N] with stiff springs: a larger loss that turns it fades
-constexpr double kHeldShare = 0.05;         // of what is held back, by which a small spring counts as larger
+constexpr double kTurnedLoss = 2.0;         // [N] a larger loss that turns the reaction fades
+constexpr double kHeldShare = 0.05;         // of held_, added to a small spring: it would end held_ at once
 constexpr double kSameWay = 0.8; // cosine between a reaction and the former one, which it continues
 
 } // namespace

@@ -37,8 +37,9 @@ struct ReactionInput {
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
 // its rows meanwhile. So a fall that new data causes while it lags fades out. So does a fall by more than
-// SurfaceNoise::kBand or 2 N that turns the reaction by much: one of several surfaces went back beyond it. If
-// the reaction returns before, in its former direction, it rises from the force that the device renders.
+// SurfaceNoise::kBand or 2 N that turns the reaction by much: one of several surfaces went back beyond the
+// hand. If the reaction returns before, in its former direction, it rises from the force that the device
+// renders.
 //
 // Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
 class Reaction {
