@@ -47,9 +47,6 @@ uint keyOf(float gap) {
 float gapOf(uint key) {
     return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key);
 }
-float roughGap(vec4 a, vec4 b) {
-    return distance(a.xyz, b.xyz) - (a.w + b.w);
-}
 
 // Blocks of this frame first, then those of frozen classes.
 uint blockCount() {
@@ -113,7 +110,7 @@ uint nearestBlock() {
     uint which = kNoIndex;
     for (uint block = gl_LocalInvocationID.x; block < blockCount(); block += gl_WorkGroupSize.x) {
         vec4 bound = boundOf(block);
-        float gap = bound.w >= 0.0 ? roughGap(bound, batch.tool) : kFar;
+        float gap = bound.w >= 0.0 ? gapBetween(bound, batch.tool) : kFar;
         which = gap < least ? block : which;
         least = min(least, gap);
     }
@@ -125,7 +122,7 @@ uint nearestSphere(uint block) {
     uint which = kNoIndex;
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
-        float gap = here.w >= 0.0 ? roughGap(here, batch.tool) : kFar;
+        float gap = here.w >= 0.0 ? gapBetween(here, batch.tool) : kFar;
         which = gap < least ? i : which;
         least = min(least, gap);
     }
@@ -144,7 +141,7 @@ void seed() {
         vec4 here = candidateOf(block, which / kBlockSlots, which % kBlockSlots).here;
         float least = kFar;
         for (uint i = gl_LocalInvocationID.x; i < batch.frozenBlocks.z; i += gl_WorkGroupSize.x) {
-            least = min(least, roughGap(here, leaves[i]));
+            least = min(least, gapBetween(here, leaves[i]));
         }
         atomicMin(best, keyOf(least));
     }
@@ -192,7 +189,7 @@ void tighten(uint block, uint near, float limit) {
         bool inReach = here.w >= 0.0 && nearerThan(least, here, batch.tool);
         for (uint k = 0u; k < near && inReach; ++k) {
             if (nearerThan(least, here, leafListed[k])) {
-                least = min(least, roughGap(here, leafListed[k]));
+                least = min(least, gapBetween(here, leafListed[k]));
             }
         }
     }

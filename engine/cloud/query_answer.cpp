@@ -103,7 +103,7 @@ std::span<const FoundSphere> QueryAnswer::spheres() const {
     return {reinterpret_cast<const FoundSphere*>(back_.as<uint8_t>().data() + kHeader), last_.spheres};
 }
 
-std::span<const uint32_t> QueryAnswer::leaves() const {
+std::span<const uint32_t> QueryAnswer::buckets() const {
     return {back_.as<uint32_t>().data() + leafOffset() / 4, last_.leaves};
 }
 

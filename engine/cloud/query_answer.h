@@ -47,7 +47,7 @@ public:
 
     // The host's copy.
     std::span<const shared::FoundSphere> spheres() const;
-    std::span<const uint32_t> leaves() const;
+    std::span<const uint32_t> buckets() const; // of the leaves
 
 private:
     uint64_t leafOffset() const;

@@ -14,9 +14,11 @@ namespace {
 using shared::QueryParams;
 using Counts = QueryAnswer::Counts;
 
-constexpr uint32_t kLeavesPerSphere = 8; // in the first answer's capacity
-constexpr uint32_t kGroups = 1024;       // of one query on a GPU
-constexpr uint32_t kFewestLeaves = 64;   // of a slice: fewer do not pay for another group
+constexpr uint32_t kLeavesPerSphere = 8;    // in the first answer's capacity
+constexpr uint32_t kGroups = 1024;          // of one query on a GPU
+constexpr uint32_t kFewestLeaves = 64;      // of a slice: fewer do not pay for another group
+constexpr double kMostBandsPerMetre = 1e30; // a reach of 0 would need infinity
+static_assert(shared::kBands == ContactSet::kGapBands && shared::kUndecided == NearPairs::kUndecided);
 
 gpu::PipelineInfo pipelineOf(const Plan& plan, bool subgroups) {
     const std::span<const uint32_t> bySubgroup(tree_query_spv), plain(tree_query_plain_spv);
@@ -58,7 +60,10 @@ QueryParams TreeQuery::paramsAt(const Pose& baseTtool, const dvec3& origin, doub
     QueryParams p{};
     writeRows(baseTtool, origin, p.rows);
     p.tool = leaves_.bound();
-    p.reach = outwardReach(leaves_.radius(), glm::length(baseTtool.position - origin), reach, largest);
+    const double away = glm::length(baseTtool.position - origin);
+    p.reach = outwardReach(leaves_.radius(), away, reach, largest);
+    p.bandsPerMetre = static_cast<float>(std::min(ContactSet::kGapBands / reach, kMostBandsPerMetre));
+    p.margin = searchError(leaves_.radius(), away, reach, largest);
     return p;
 }
 
@@ -143,7 +148,7 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
 }
 
 void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
-    near.leaves = answer_.leaves();
+    near.buckets = answer_.buckets();
     near.spheres.clear();
     for (const shared::FoundSphere& f : answer_.spheres()) {
         const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.pointClass);

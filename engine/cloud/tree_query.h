@@ -24,10 +24,10 @@ public:
     bool list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near);
     uint32_t capacity() const { return answer_.capacity().spheres; }
 
-    // Asks about pairs at the very limit of the reach, which a device with other arithmetic than Vulkan's
-    // would miss. True when it finds them all. shorter: searches a reach that is shorter by this [m]. Drops
-    // the tool.
-    bool passesProbe(double shorter = 0.0);
+    // Asks about pairs at the very limits of reach and bands, which a device with other arithmetic than
+    // Vulkan's would miss or get wrong. True when all are right. shorter: searches a reach that is shorter by
+    // this [m]. margins: times the margin of the bands. Drops the tool.
+    bool passesProbe(double shorter = 0.0, float margins = 1.0f);
 
 private:
     // Blocks that one dispatch searches.

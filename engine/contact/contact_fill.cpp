@@ -74,7 +74,7 @@ void orderBySphere(PairScratch& scratch, ContactSet& set) {
 
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out) {
-    out.clear();
+    out.behind.clear(); // not the pairs: vectors that grow again would write zeros before placePairs() does
     out.frame = fixtures.frame;
     out.generation = fixtures.generation;
     out.captureTime = fixtures.captureTime;
@@ -126,7 +126,7 @@ bool listPairs(const Tool& tool, size_t capacity, PairScratch& scratch, ContactS
         }
     }
     orderBySphere(scratch, set);
-    placePairs(scratch.ordered, scratch.decide.next, set);
+    placePairs(scratch.ordered, scratch.decide, set);
     return true;
 }
 

@@ -21,8 +21,9 @@ struct PairScratch {
     std::vector<uint32_t> count;
 };
 
-// Fills everything except the pairs, the behind flags and ContactSet::query: identity of the fixture set,
-// pose, reach, leaf centres, and the spheres in the order of `indices` (sorted by source).
+// Fills everything except the pairs, which stay as they were, the behind flags and ContactSet::query:
+// identity of the fixture set, pose, reach, leaf centres, and the spheres in the order of `indices` (sorted
+// by source).
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out);
 

@@ -20,59 +20,83 @@ void orderBySource(const std::vector<NearSphere>& spheres, DecideScratch& scratc
     sortBySource(scratch.order, scratch.sort);
 }
 
-void addSphere(const NearSphere& s, ContactSet& set) {
-    set.x.push_back(s.x);
-    set.y.push_back(s.y);
-    set.z.push_back(s.z);
-    set.radius.push_back(s.radius);
-    set.source.push_back(s.source);
-    set.fixture.push_back(static_cast<uint8_t>(s.fixture));
+void resizeSpheres(size_t count, ContactSet& set) {
+    set.x.resize(count);
+    set.y.resize(count);
+    set.z.resize(count);
+    set.radius.resize(count);
+    set.source.resize(count);
+    set.fixture.resize(count);
+}
+
+void setSphere(const NearSphere& s, size_t i, ContactSet& set) {
+    set.x[i] = s.x;
+    set.y[i] = s.y;
+    set.z[i] = s.z;
+    set.radius[i] = s.radius;
+    set.source[i] = s.source;
+    set.fixture[i] = static_cast<uint8_t>(s.fixture);
+}
+
+float upToFloat(double x) {
+    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+// The bucket of a pair that the query left undecided; kUndecided: not in the set.
+uint32_t decide(uint32_t undecided, const NearSphere& s, const Tool& tool, const ContactSet& set) {
+    const uint32_t leaf = (undecided & ~NearPairs::kUndecided) / ContactSet::kGapBands;
+    const dvec3 c = set.leafAtQuery[leaf];
+    const double gap = exactGap(c.x, c.y, c.z, tool.leaves()[leaf].radius, s.x, s.y, s.z, s.radius);
+    return gap <= set.reach + kPairMargin ? leaf * ContactSet::kGapBands + set.bandOf(gap)
+                                          : NearPairs::kUndecided;
 }
 
 } // namespace
 
+float searchError(double toolRadius, double away, double reach, double largest) noexcept {
+    return upToFloat(0x1p-22 * (away + 16.0 * (toolRadius + reach + largest)));
+}
+
 float outwardReach(double toolRadius, double away, double reach, double largest) noexcept {
-    const double near = toolRadius + reach + largest;
-    const double outward = reach + kPairMargin + 0x1p-22 * (away + 16.0 * near);
-    return std::nextafter(static_cast<float>(outward), std::numeric_limits<float>::infinity());
+    return upToFloat(reach + kPairMargin + double{searchError(toolRadius, away, reach, largest)});
 }
 
 bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, DecideScratch& scratch,
                  ContactSet& set) {
     orderBySource(near.spheres, scratch);
-    scratch.leaves.resize(tool.leafCount());
-    for (size_t i = 0; i < tool.leafCount(); ++i) {
-        scratch.leaves[i] = glm::dvec4(set.leafAtQuery[i], tool.leaves()[i].radius);
-    }
-    const double limit = set.reach + kPairMargin;
     ListedPairs& pairs = scratch.pairs;
-    pairs.resize(std::min(near.leaves.size(), mostPairs));
-    size_t listed = 0;
+    pairs.resize(std::min(near.buckets.size(), mostPairs));
+    resizeSpheres(near.spheres.size(), set);
+    size_t listed = 0, spheres = 0;
     for (const uint32_t i : scratch.order) {
         const NearSphere& s = near.spheres[i];
-        for (const uint32_t leaf : near.leaves.subspan(s.first, s.count)) {
-            const glm::dvec4& l = scratch.leaves[leaf];
-            const double gap = exactGap(l.x, l.y, l.z, l.w, s.x, s.y, s.z, s.radius);
-            if (!(gap <= limit)) {
+        const bool again = spheres != 0 && set.source[spheres - 1] == s.source; // with other leaves
+        const size_t before = listed;
+        for (uint32_t bucket : near.buckets.subspan(s.first, s.count)) {
+            bucket = bucket < NearPairs::kUndecided ? bucket : decide(bucket, s, tool, set);
+            if (bucket == NearPairs::kUndecided) {
                 continue;
             }
             if (listed == pairs.size()) {
+                resizeSpheres(spheres, set);
                 return false;
             }
-            if (set.source.empty() || set.source.back() != s.source) {
-                addSphere(s, set);
-            }
-            pairs.bucket[listed] = leaf * ContactSet::kGapBands + set.bandOf(gap);
-            pairs.sphere[listed++] = static_cast<uint32_t>(set.size() - 1);
+            pairs.bucket[listed] = bucket;
+            pairs.sphere[listed++] = static_cast<uint32_t>(again ? spheres - 1 : spheres);
+        }
+        if (listed != before && !again) {
+            setSphere(s, spheres++, set);
         }
     }
     pairs.resize(listed);
-    placePairs(pairs, scratch.next, set);
+    resizeSpheres(spheres, set);
+    placePairs(pairs, scratch, set);
     return true;
 }
 
 // A stable counting sort by leaf and band.
-void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSet& set) {
+void placePairs(const ListedPairs& pairs, DecideScratch& scratch, ContactSet& set) {
+    std::vector<uint32_t>& next = scratch.next;
     constexpr uint32_t kBands = ContactSet::kGapBands;
     const size_t leaves = set.leafCount(), count = pairs.size();
     std::vector<uint32_t>& end = set.pairBandEnd;
@@ -92,16 +116,20 @@ void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSe
     for (size_t k = 0; k < count; ++k) {
         set.pairSphere[next[pairs.bucket[k]]++] = pairs.sphere[k];
     }
+    scratch.spheres.resize(set.size());
+    for (size_t i = 0; i < set.size(); ++i) { // exact: the values were floats
+        scratch.spheres[i] = glm::vec4(set.x[i], set.y[i], set.z[i], set.radius[i]);
+    }
     set.pairX.resize(count);
     set.pairY.resize(count);
     set.pairZ.resize(count);
     set.pairRadius.resize(count);
-    for (size_t k = 0; k < count; ++k) { // exact: the values were floats
-        const uint32_t s = set.pairSphere[k];
-        set.pairX[k] = static_cast<float>(set.x[s]);
-        set.pairY[k] = static_cast<float>(set.y[s]);
-        set.pairZ[k] = static_cast<float>(set.z[s]);
-        set.pairRadius[k] = static_cast<float>(set.radius[s]);
+    for (size_t k = 0; k < count; ++k) {
+        const glm::vec4& s = scratch.spheres[set.pairSphere[k]];
+        set.pairX[k] = s.x;
+        set.pairY[k] = s.y;
+        set.pairZ[k] = s.z;
+        set.pairRadius[k] = s.w;
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The deciding step of every contact query. A query may list too many pairs of region sphere and leaf, but
-// never too few; float64 arithmetic on the host decides which of them are in the contact set, and in which
-// order. So contact sets do not depend on which device listed the pairs.
+// never too few, and may leave pairs undecided. Whatever float32 cannot tell, float64 arithmetic on the host
+// decides. So contact sets do not depend on which device listed the pairs.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -14,24 +14,32 @@
 
 namespace fathom {
 
+// [m] By how much a gap computed in float32 may be wrong, with a margin for its band
+// (docs/architecture/query.md has the proof). Positions may be about the set's origin or in the tool's frame.
+// toolRadius: Tool::boundingRadius(). away: distance of the tool's frame from the set's origin. largest:
+// largest radius of the spheres. All in metres.
+float searchError(double toolRadius, double away, double reach, double largest) noexcept;
+
 // A float32 search must find every pair within `reach`. It does if it tests
 //     dx dx + dy dy + dz dz <= (outward + r + R)^2
-// in float32 with any rounding, where `outward` is the result. Positions may be about the set's origin or in
-// the tool's frame (docs/architecture/query.md has the proof). toolRadius: Tool::boundingRadius(). away:
-// distance of the tool's frame from the set's origin. largest: largest radius of the spheres. All in metres.
+// in float32 with any rounding, where `outward` is the result.
 float outwardReach(double toolRadius, double away, double reach, double largest) noexcept;
 
 // A region sphere with some of the leaves that may be near it.
 struct NearSphere {
     uint32_t source, fixture;
-    uint32_t first, count; // its leaves: NearPairs::leaves[first .. first + count)
+    uint32_t first, count; // its leaves: NearPairs::buckets[first .. first + count)
     float x, y, z, radius; // [m] about the set's origin
 };
 
 // In any order. A sphere may occur several times, each time with other leaves.
 struct NearPairs {
+    static constexpr uint32_t kUndecided = 0x80000000u;
+
     std::vector<NearSphere> spheres;
-    std::span<const uint32_t> leaves; // in memory of the query that listed the pairs, until its next list
+    // As ListedPairs::bucket. With kUndecided the band is open, and so is whether the pair is in the set. In
+    // memory of the query that listed the pairs, until its next list.
+    std::span<const uint32_t> buckets;
 };
 
 // Pairs that are in the set.
@@ -53,8 +61,8 @@ struct ListedPairs {
 // Scratch of decidePairs() and placePairs(), kept to save allocations. One thread.
 struct DecideScratch {
     ListedPairs pairs;
-    std::vector<glm::dvec4> leaves; // centre and radius
     std::vector<uint32_t> order, next;
+    std::vector<glm::vec4> spheres; // of the set: centre and radius
     SourceSort sort;
 };
 
@@ -66,7 +74,7 @@ bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, Deci
 
 // Fills the pair arrays of `set` from pairs in the order of the set's spheres: by leaf, then band, then
 // source.
-void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSet& set);
+void placePairs(const ListedPairs& pairs, DecideScratch& scratch, ContactSet& set);
 
 inline constexpr double kPairMargin = 1e-9; // [m] by which listed gaps may exceed the reach
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 
 namespace fathom {
 
@@ -15,11 +16,13 @@ void sortBySource(std::vector<uint32_t>& indices, SourceSort& sort) {
     sort.sortedKeys.resize(count);
     sort.sorted.resize(count);
     const uint32_t largest = *std::max_element(sort.keys.begin(), sort.keys.end());
-    constexpr uint32_t kBits = 11;
-    std::array<uint32_t, (1u << kBits)> begin;
-    for (uint32_t shift = 0; shift < 32 && (largest >> shift) != 0; shift += kBits) {
+    // A pass over the digits costs more than one over few indices.
+    const uint32_t bits = count < 8192 ? 8 : 11;
+    std::array<uint32_t, (1u << 11)> digits;
+    const std::span begin(digits.data(), size_t{1} << bits);
+    for (uint32_t shift = 0; shift < 32 && (largest >> shift) != 0; shift += bits) {
         const auto digit = [&](size_t i) { return (sort.keys[i] >> shift) & (begin.size() - 1); };
-        begin.fill(0);
+        std::ranges::fill(begin, 0u);
         for (size_t i = 0; i < count; ++i) {
             ++begin[digit(i)];
         }

@@ -59,6 +59,7 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
     const bool onHost = !gpu_ || !set.device.nodes; // the device or the set's device side is gone
     switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
     case Plan::Query::None:
+        out.clear();
         fillContactSet(tool, baseTtool, kNothingToTouch, set.host, {}, out);
         out.pairBegin.assign(tool.leafCount() + 1, 0);
         out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);

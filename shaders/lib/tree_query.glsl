@@ -4,9 +4,9 @@
 // against the bound of the tool, and then, for each block in reach, its slice of leaves against the block's
 // bound. The leaves in reach go to shared memory, and one invocation per sphere tests them.
 //
-// The answer contains every pair within reach, and a few more: the host decides
-// (engine/contact/near_pairs.h). No test uses a root or a division, which devices may round as they like.
-// docs/architecture/query.md proves the margins. The including file defines placeOf().
+// The answer contains every pair within reach, and a few more. Each has the band of its gap, or the mark that
+// float32 cannot tell it: then the host decides (engine/contact/near_pairs.h). docs/architecture/query.md
+// proves the margins. The including file defines placeOf().
 #include "shaders/lib/near_test.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"
@@ -84,6 +84,17 @@ void listLeaves(vec4 bound) {
     barrier();
 }
 
+// The leaf as it stands in the answer.
+uint withBand(uint leaf, vec4 a, vec4 b) {
+    float gap = gapBetween(a, b);
+    precise float low = (gap - query.margin) * query.bandsPerMetre;
+    precise float high = (gap + query.margin) * query.bandsPerMetre;
+    const float last = float(kBands) - 0.5;
+    uint band = uint(clamp(high, 0.0, last));
+    bool decided = high <= float(kBands) && band == uint(clamp(low, 0.0, last));
+    return leaf * kBands + (decided ? band : kUndecided);
+}
+
 void testSphere(uint slot, uint layer, uint near) {
     vec4 sphere = layer == kLayerHeld ? held[slot] : spheres[slot];
     vec4 here = vec4(inLeafFrame(sphere.xyz), sphere.w);
@@ -102,7 +113,7 @@ void testSphere(uint slot, uint layer, uint near) {
     for (uint k = 0; k < near; ++k) {
         if (within(here, leafInReach[k])) {
             if (pair < query.used.w) {
-                foundLeaves[query.leafWord + pair] = idInReach[k];
+                foundLeaves[query.leafWord + pair] = withBand(idInReach[k], here, leafInReach[k]);
             }
             ++pair;
         }

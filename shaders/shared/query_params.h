@@ -8,6 +8,9 @@ FATHOM_SHARED_BEGIN
 // A block is 256 slots of spheres with one bound: a patch of an image, or part of a list.
 FATHOM_CONST kBlockSlots = 256, // slots per block
     kSliceLeaves = 512;         // most leaves that one group tests
+// A leaf in the answer: leaf x kBands + band of its gap, plus kUndecided where float32 is too coarse to tell
+// the band, or whether the gap is within reach.
+FATHOM_CONST kBands = 16, kUndecided = 0x80000000;
 // FoundSphere::slot is 4 x slot + layer.
 FATHOM_CONST kLayerSeen = 0, // spheres of this frame
     kLayerHeld = 1,          // held spheres
@@ -15,16 +18,18 @@ FATHOM_CONST kLayerSeen = 0, // spheres of this frame
 
 // Push constants. q = rows * (s - t) transforms a sphere's centre into the frame of the leaves.
 struct QueryParams {
-    vec4 rows[3];  // a row of the rotation; one component of t [m]
-    vec4 tool;     // bounds all leaves, in their frame
-    uvec4 blocks;  // number of blocks; index of the first bound; number of leaves; leaves per slice
-    uvec4 used;    // spheres and leaves found before this query; most of each in this one
-    uint layer;    // of the first layer: kLayerSeen or kLayerFrozen
-    uint layers;   // 2 = `held` is a second layer
-    uint leafWord; // index of the first leaf in the answer [words]
-    float reach;   // [m] outwardReach()
+    vec4 rows[3];        // a row of the rotation; one component of t [m]
+    vec4 tool;           // bounds all leaves, in their frame
+    uvec4 blocks;        // number of blocks; index of the first bound; number of leaves; leaves per slice
+    uvec4 used;          // spheres and leaves found before this query; most of each in this one
+    uint layer;          // of the first layer: kLayerSeen or kLayerFrozen
+    uint layers;         // 2 = `held` is a second layer
+    uint leafWord;       // index of the first leaf in the answer [words]
+    float reach;         // [m] outwardReach()
+    float bandsPerMetre; // kBands / reach of the set
+    float margin;        // [m] searchError()
 };
-FATHOM_SIZE(QueryParams, 112);
+FATHOM_SIZE(QueryParams, 120);
 
 // A sphere with the leaves that are near it.
 struct FoundSphere {

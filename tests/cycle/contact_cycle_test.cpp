@@ -126,7 +126,7 @@ TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
         CHECK(small.list(*set, pose, reach, a));
         CHECK(large.list(*set, pose, reach, b));
         CHECK(a.spheres.size() == b.spheres.size());
-        CHECK(a.leaves.size() == b.leaves.size());
+        CHECK(a.buckets.size() == b.buckets.size());
         ContactSet one, other;
         fillContactSet(tool, pose, reach, set->host, {}, one);
         fillContactSet(tool, pose, reach, set->host, {}, other);
@@ -143,6 +143,7 @@ TEST_CASE("The probe passes with the margin of the reach, and fails without it")
     cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets());
     CHECK(query.passesProbe());
     CHECK_FALSE(query.passesProbe(5e-6));
+    CHECK_FALSE(query.passesProbe(0.0, 0.0f));
     CHECK(query.passesProbe());
 }
 

@@ -99,6 +99,35 @@ TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
     CHECK(sets[0].size() > 100);
 }
 
+TEST_CASE("The GPU decides nearly all pairs, and as the host would") {
+    const CameraInfo camera = pinholeCamera(129, 65);
+    CloudRig rig(plainScene(), camera, queriedByGpu(false));
+    rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
+    const Tool tool = leafyTool(300, 0.2);
+    cloud::TreeQuery query(vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets());
+    query.setTool(tool);
+    for (const double reach : {1e-9, 0.002, 0.01, 0.1}) {
+        CAPTURE(reach);
+        const Pose pose{{0, 0, 0.9}, {1, 0, 0, 0}};
+        NearPairs near;
+        REQUIRE(query.list(rig.set(), pose, reach, near));
+        std::vector<uint32_t> undecided(near.buckets.begin(), near.buckets.end());
+        const auto open =
+            std::ranges::count_if(undecided, [](uint32_t b) { return b >= NearPairs::kUndecided; });
+        CHECK(undecided.size() > 100);
+        CHECK(static_cast<size_t>(open) < undecided.size() / 20);
+        std::ranges::for_each(undecided, [](uint32_t& b) { b |= NearPairs::kUndecided; });
+        ContactSet byDevice, byHost;
+        DecideScratch scratch;
+        fillContactSet(tool, pose, reach, rig.host(), {}, byDevice);
+        fillContactSet(tool, pose, reach, rig.host(), {}, byHost);
+        CHECK(decidePairs(tool, near, SIZE_MAX, scratch, byDevice));
+        near.buckets = undecided;
+        CHECK(decidePairs(tool, near, SIZE_MAX, scratch, byHost));
+        checkSameContacts(byDevice, byHost);
+    }
+}
+
 TEST_CASE("Both queries agree while a class is frozen, while two are, and after they are released") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = redAndBlueScene();
