@@ -2,11 +2,11 @@
 #include "apps/refused_arguments.h"
 
 #include "engine/types/joined.h"
+#include "engine/types/lower_case.h"
 #include "engine/types/suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <vector>
 
@@ -18,8 +18,7 @@ using Names = std::vector<std::string>;
 constexpr const char* kSeeHelp = "; see fathom --help";
 
 std::string unknown(const std::string& word, const Names& names) {
-    std::string small = word; // as all names are
-    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string small = lowerCase(word); // as all names are
     return "'" + word + "'" + suggestion(small, std::vector<std::string_view>(names.begin(), names.end())) +
            " (allowed: " + joined(names) + ")";
 }
@@ -85,18 +84,16 @@ std::string notTaken(const CLI::App& command, const CLI::App& app, const std::st
                word + " ...)";
     }
     for (const CLI::Option* positional : command.get_options()) {
-        std::string title = positional->get_name();
+        const std::string title = positional->get_name();
         if (!positional->get_positional()) {
             continue;
         }
         if (word.find('-') != 0 && positional->count() > 0) {
             return name + ": '" + word + "': one " + title + " only";
         }
-        std::transform(title.begin(), title.end(), title.begin(),
-                       [](unsigned char c) { return std::tolower(c); });
-        if (word == "--" + title) {
-            return name + ": " + word + ": " + positional->get_name() +
-                   " is given without an option (fathom " + name + " " + positional->get_name() + ")";
+        if (word == "--" + lowerCase(title)) {
+            return name + ": " + word + ": " + title + " is given without an option (fathom " + name + " " +
+                   title + ")";
         }
     }
     return name + ": " + unknown(word, optionsOf(&command, app));

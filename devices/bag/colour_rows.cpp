@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/colour_rows.h"
 
+#include "engine/types/lower_case.h"
+
 #include <algorithm>
 
 namespace fathom::ros {
@@ -82,11 +84,10 @@ void plainRow(const uint8_t* in, const ColourLayout& layout, bool bigEndian, uin
 
 } // namespace
 
-const ColourLayout* colourLayout(std::string encoding) {
-    std::transform(encoding.begin(), encoding.end(), encoding.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+const ColourLayout* colourLayout(const std::string& encoding) {
+    const std::string name = lowerCase(encoding);
     const auto layout = std::find_if(kLayouts.begin(), kLayouts.end(),
-                                     [&](const ColourLayout& one) { return encoding == one.encoding; });
+                                     [&](const ColourLayout& one) { return name == one.encoding; });
     return layout == kLayouts.end() ? nullptr : &*layout;
 }
 

@@ -25,7 +25,7 @@ struct ColourLayout {
     bool grey() const { return !raw && !bayer && bytes == 1; }
 };
 // Null when the encoding is not colour. Upper and lower case are the same.
-const ColourLayout* colourLayout(std::string encoding);
+const ColourLayout* colourLayout(const std::string& encoding);
 
 // The pixels of one message.
 struct ColourImage {

@@ -3,9 +3,9 @@
 
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/lower_case.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
@@ -31,10 +31,8 @@ bool unturned(const dquat& rotation) {
     return std::abs(rotation.w) > 1.0 - 1e-9;
 }
 
-bool namedOptical(std::string frame) {
-    std::ranges::transform(frame, frame.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return frame.find("optical") != std::string::npos;
+bool namedOptical(const std::string& frame) {
+    return lowerCase(frame).find("optical") != std::string::npos;
 }
 
 } // namespace

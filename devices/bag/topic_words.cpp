@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/topic_words.h"
 
+#include "engine/types/lower_case.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -117,12 +119,6 @@ bool beginsCamelWord(const std::string& text, size_t at) {
            (isLower(before) || isDigit(before) || (isUpper(before) && !last && isLower(text[at + 1])));
 }
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
 // In the case of the name.
 std::vector<std::string> casedTokensOf(const std::string& name) {
     std::vector<std::string> tokens;
@@ -171,14 +167,14 @@ bool describesImages(const std::vector<std::string>& words, size_t at) {
 
 std::vector<std::string> tokensOf(const std::string& name) {
     std::vector<std::string> tokens = casedTokensOf(name);
-    std::ranges::transform(tokens, tokens.begin(), lower);
+    std::ranges::transform(tokens, tokens.begin(), lowerCase);
     return tokens;
 }
 
 std::vector<std::string> camelWordsOf(const std::string& name) {
     std::vector<std::string> words;
     for (const std::string& token : casedTokensOf(name)) {
-        words.push_back(lower(token));
+        words.push_back(lowerCase(token));
         if (useOf(words.back(), false) != WordUse::None) {
             continue;
         }
@@ -187,7 +183,7 @@ std::vector<std::string> camelWordsOf(const std::string& name) {
             if (i > 0 && beginsCamelWord(token, i)) {
                 words.emplace_back();
             }
-            words.back() += lower(std::string(1, token[i]));
+            words.back() += lowerCase(std::string(1, token[i]));
         }
     }
     return words;

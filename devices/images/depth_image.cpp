@@ -9,8 +9,6 @@
 #include "engine/types/stand_in.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <vector>
 
 namespace fathom {
@@ -77,11 +75,8 @@ std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& f
 } // namespace
 
 bool endsAs(const std::filesystem::path& file, std::span<const std::string_view> endings) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool hidden = file.filename().string().starts_with('.');
-    return !hidden && std::find(endings.begin(), endings.end(), ending) != endings.end();
+    return !hidden && std::ranges::find(endings, endingOf(file)) != endings.end();
 }
 
 DepthHeader depthImageHeader(const std::filesystem::path& file) {

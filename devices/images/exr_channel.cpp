@@ -2,9 +2,9 @@
 #include "devices/images/exr_channel.h"
 
 #include "engine/types/error.h"
+#include "engine/types/lower_case.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 namespace fathom {
@@ -16,9 +16,8 @@ struct ExrName {
     std::string layer; // empty, or with its dot
     std::string last;
 
-    explicit ExrName(std::string name) {
-        std::ranges::transform(name, name.begin(),
-                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    explicit ExrName(const std::string& written) {
+        const std::string name = lowerCase(written);
         const size_t end = name.rfind('.') + 1; // 0 without a dot
         layer = name.substr(0, end);
         last = name.substr(end);

@@ -2,6 +2,7 @@
 #include "devices/pcd/ply_header.h"
 
 #include "engine/types/error.h"
+#include "engine/types/lower_case.h"
 #include "engine/types/parse_number.h"
 
 #include <algorithm>
@@ -148,9 +149,8 @@ private:
 
     // "obj_info num_cols 640", "comment width: 640", "comment height=480".
     void readSize(const std::vector<std::string>& words) {
-        std::string name = words.size() > 1 ? words[1] : "", value = words.size() > 2 ? words.back() : "";
-        std::transform(name.begin(), name.end(), name.begin(),
-                       [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        std::string name = words.size() > 1 ? lowerCase(words[1]) : "",
+                    value = words.size() > 2 ? words.back() : "";
         if (const size_t mark = name.find_first_of("=:"); mark != std::string::npos) {
             value = mark + 1 < name.size() ? name.substr(mark + 1) : value;
             name.erase(mark);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/range_images.h"
 
+#include "engine/types/lower_case.h"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <glm/geometric.hpp>
 #include <string_view>
 
@@ -12,9 +13,7 @@ namespace fathom {
 bool namedRangeImage(const std::string& name) {
     constexpr std::array<std::string_view, 3> kRanges{"distance_to_camera", "depthperspective",
                                                       "depth_perspective"};
-    std::string lower = name;
-    std::ranges::transform(lower, lower.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string lower = lowerCase(name);
     return std::ranges::any_of(kRanges,
                                [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }

@@ -2,10 +2,10 @@
 #include "devices/v4l2/v4l2_controls.h"
 
 #include "engine/types/error.h"
+#include "engine/types/lower_case.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <linux/videodev2.h>
@@ -104,9 +104,7 @@ CameraControl absent(const std::string& stream, const char* name) {
 
 // Vendors' own controls, which have names only.
 bool isLaser(const v4l2_query_ext_ctrl& query) {
-    std::string name(query.name, strnlen(query.name, sizeof query.name));
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+    const std::string name = lowerCase({query.name, strnlen(query.name, sizeof query.name)});
     return isNumber(query) &&
            (name.find("laser") != std::string::npos || name.find("emitter") != std::string::npos);
 }

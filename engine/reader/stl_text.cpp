@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reader/stl_text.h"
 
+#include "engine/types/lower_case.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -18,12 +18,6 @@ namespace {
 constexpr uintmax_t kHeadBytes = 84, kFacetBytes = 50; // of a binary STL
 constexpr size_t kLongestWord = 256, kLargestStl = 512u << 20;
 constexpr const char* kNoFacets = "no facets";
-
-std::string inSmall(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 // The size of a binary STL follows from its count. Up to one facet more is padding.
 std::string binaryFault(const std::filesystem::path& file, const std::string& head, std::string& instead) {
@@ -76,7 +70,7 @@ std::string textFault(std::istream& in, StlSpelling& spelling) {
     size_t facets = 0, corners = 0, before = 0; // before this solid
     bool ended = false;
     for (std::string written; in >> std::setw(kLongestWord) >> written;) {
-        const std::string word = inSmall(written);
+        const std::string word = lowerCase(written);
         if (word == "vertex") {
             ++corners;
             continue;
@@ -118,13 +112,13 @@ std::string stlFault(const std::filesystem::path& file, std::string& instead) {
     in.clear();
     in.seekg(0);
     const size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
-    if (!inSmall(head.substr(first)).starts_with("solid") || head.find('\0') != std::string::npos) {
+    if (!lowerCase(head.substr(first)).starts_with("solid") || head.find('\0') != std::string::npos) {
         return binaryFault(file, head, instead);
     }
     StlSpelling spelling;
     const std::string fault = textFault(in, spelling);
     if (fault.empty() && (spelling.gaps || spelling.capitals || first > 0)) {
-        instead = inSmall(readFileAtMost(file, kLargestStl).value_or("").substr(first));
+        instead = lowerCase(readFileAtMost(file, kLargestStl).value_or("").substr(first));
         instead = spelling.gaps ? oneSolid(instead) : instead;
     }
     return fault;

@@ -4,11 +4,11 @@
 #include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/lower_case.h"
 #include "engine/types/printable.h"
 #include "engine/types/suggestion.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -61,10 +61,7 @@ std::string_view correctionOf(std::string_view written, const Words& words) {
     if (std::ranges::find(words, written) != words.end()) {
         return "";
     }
-    std::string small(written);
-    std::ranges::transform(small, small.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto same = std::ranges::find(words, small);
+    const auto same = std::ranges::find(words, lowerCase(std::string(written)));
     const bool extension = written.find_first_of("_:") != std::string_view::npos;
     return same != words.end() ? *same : extension ? std::string_view{} : nearestWord(written, words);
 }

@@ -3,10 +3,10 @@
 
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/lower_case.h"
 #include "engine/types/stand_in.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <fstream>
 #include <unistd.h>
@@ -19,9 +19,7 @@ bool isRegularFile(const std::filesystem::path& file) {
 }
 
 std::string endingOf(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    return ending;
+    return lowerCase(file.extension().string());
 }
 
 std::string whyUnreadable(const std::filesystem::path& file) {
