@@ -21,8 +21,6 @@ public:
     void setShapes(std::span<const Shape> shapes) override;
     void forget() noexcept override;
 
-    const ViewSocket& endpoint() const noexcept { return endpoint_; }
-
 private:
     void offerNews();
     void offerRegions();

@@ -92,7 +92,6 @@ void ViewSocket::send(fathom_door_state& state) noexcept {
             continue;
         }
         ++observer.sequence; // a lost state leaves a gap
-        lost_ += event == SocketEvent::Empty ? 1 : 0;
         if (proceed(observer, observer.fixtures, fixtures_, FATHOM_DOOR_FIXTURES)) {
             proceed(observer, observer.regions, regions_, FATHOM_DOOR_REGIONS);
         }

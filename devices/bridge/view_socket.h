@@ -38,7 +38,6 @@ public:
     void send(fathom_door_state& state) noexcept;
 
     bool watched() const noexcept;
-    uint64_t lost() const noexcept { return lost_; } // states, over all observers
 
     static constexpr size_t kMax = 4;
 
@@ -67,7 +66,6 @@ private:
     std::array<Observer, kMax> observers_;
     List<fathom_door_regions> regions_;   // newest
     List<fathom_door_fixtures> fixtures_; // newest
-    uint64_t lost_ = 0;
 };
 
 } // namespace fathom
