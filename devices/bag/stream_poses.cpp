@@ -4,6 +4,7 @@
 
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/recording_extrinsics.h"
+#include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -54,13 +55,12 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
 
 // A pose that lenses of one rig do not have: beyond the bounds of any camera colour is unrelated to depth.
 void StreamChooser::doubtRig(Relation& relation, bool warns) {
-    constexpr double kFarthest = 10.0; // [m], as in checkCamera()
     const std::optional<RigFault> fault = rigFault(relation.colourTdepth);
     if (!fault) {
         return;
     }
     std::string words = relation.source + ": " + fault->value + " (allowed: " + fault->allowed;
-    if (!(glm::length(relation.colourTdepth.position) <= kFarthest)) {
+    if (!(glm::length(relation.colourTdepth.position) <= kFarthestColour)) {
         words += "; or extrinsics=FILE or colour=none after the file name)";
         relation = {0, false, {}, "extrinsics: " + words};
         return;

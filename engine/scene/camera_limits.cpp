@@ -66,7 +66,8 @@ void checkCamera(const CameraInfo& camera, const std::string& source) {
     if (camera.hasColour && !camera.registered) {
         check.lens("colour", camera.colour);
         for (int i = 0; i < 3; ++i) {
-            check.number("colour_T_depth", camera.colourTdepth.position[i], Range::between(-10.0, 10.0));
+            check.number("colour_T_depth", camera.colourTdepth.position[i],
+                         Range::between(-kFarthestColour, kFarthestColour));
         }
     }
     check.number("depth unit", camera.metresPerUnit, Range::between(1e-7, 1.0));
