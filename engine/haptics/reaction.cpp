@@ -2,7 +2,6 @@
 #include "engine/haptics/reaction.h"
 
 #include "engine/haptics/limits.h"
-#include "engine/haptics/wrench_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +10,14 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMinRiseRate = 10.0;       // [N/s] after new data
-constexpr double kRoundingForce = 1e-6;     // [N] rounding
-constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no direction that is felt
-constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
-constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
-constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
-constexpr double kTurnedLoss = 2.0;         // [N] a larger loss that turns the reaction fades
-constexpr double kHeldShare = 0.05;         // of held_, added to a small spring: it would end held_ at once
-constexpr double kSameWay = 0.8; // cosine between a reaction and the former one, which it continues
+constexpr double kMinRiseRate = 10.0;   // [N/s] after new data
+constexpr double kRoundingForce = 1e-6; // [N] rounding
+constexpr double kPushTime = 0.012;     // [s] in which new data pushes a tool out, or half a frame
+constexpr double kFrameSlack = 1.25;    // frame intervals to wait for the next frame
+constexpr double kMinMixLength = 0.3;   // directions that differ more than that are not mixed
+constexpr double kTurnedLoss = 2.0;     // [N] a larger loss that turns the reaction fades
+constexpr double kHeldShare = 0.05;     // of held_, added to a small spring: it would end held_ at once
+constexpr double kSameWay = 0.8;        // cosine between a reaction and the former one, which it continues
 
 } // namespace
 
@@ -69,7 +67,7 @@ void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexc
 // fades for the rest of the frame.
 bool Reaction::beginElsewhere(const Wrench& wanted, const ReactionInput& input) noexcept {
     const double size = metricSize(wanted, k_), left = interval_ - sinceData_;
-    if (!ended_ || !(held_ > kMinHeld) || !(left > 0.0) || !(size > kMinDirectionForce) ||
+    if (!ended_ || !(held_ > kMinFelt) || !(left > 0.0) || !(size > kMinFelt) ||
         metricProduct(lastFelt_, wanted, k_) > kSameWay * size * lastFeltSize_) {
         return false;
     }
@@ -98,7 +96,7 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
         return;
     }
     const double along = metricProduct(lastFelt_, wanted, k_);
-    const bool turned = size > kMinDirectionForce && along > 0.0 && along <= kSameWay * size * lastFeltSize_;
+    const bool turned = size > kMinFelt && along > 0.0 && along <= kSameWay * size * lastFeltSize_;
     const double lost = lastFeltSize_ - byHand - size;
     if (pushed() && ((input.lags && lost > band) || (turned && lost > std::min(band, kTurnedLoss)))) {
         beginFade(wanted, input);
@@ -124,14 +122,14 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
 double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released,
                           double rendered) noexcept {
     const double left = interval_ - sinceData_, length = metricSize(way, k_);
-    if (fade_.active() || !(left > 0.0) || !(length > kMinDirectionForce)) {
+    if (fade_.active() || !(left > 0.0) || !(length > kMinFelt)) {
         return held_ = 0.0;
     }
     const double before = metricProduct(lastFelt_, way, k_) / length;
     if (pushed() && before > kSameWay * lastFeltSize_) {
         held_ = std::max(held_, std::min(before - byHand, rendered) - wanted);
     }
-    ended_ = !(wanted > kMinDirectionForce);
+    ended_ = !(wanted > kMinFelt);
     const double had = wanted + kHeldShare * held_;
     const double kept = ended_ ? std::max(0.0, held_ - released) : held_ * had / (had + released);
     return held_ = kept * (1.0 - std::min(1.0, elapsed_ / left));
@@ -140,7 +138,7 @@ double Reaction::heldBack(const Wrench& way, double wanted, double byHand, doubl
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
     const double wanted = metricSize(wrench, k_);
     // Out of the regions: along the wanted reaction, or the last one.
-    const bool ended = !(wanted > kMinDirectionForce) && lastFeltSize_ > kMinDirectionForce;
+    const bool ended = !(wanted > kMinFelt) && lastFeltSize_ > kMinFelt;
     const Wrench way = ended ? lastFelt_ : wrench;
     const double length = ended ? lastFeltSize_ : wanted;
     const double out =
@@ -165,7 +163,7 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
     }
     const double size = metricSize(wrench, k_);
     turnLeft_ = 0.0;
-    if (fade_.active() || !(lastFeltSize_ > kMinDirectionForce) || !(size > kMinDirectionForce)) {
+    if (fade_.active() || !(lastFeltSize_ > kMinFelt) || !(size > kMinFelt)) {
         return;
     }
     if (metricProduct(lastFelt_, wrench, k_) < 0.0) {
@@ -183,7 +181,7 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
     turnLeft_ = std::max(0.0, turnLeft_ - (input.newData ? input.period : elapsed_));
     const double share = turnLeft_ / interval_;
-    if (!(share > 0.0) || !(size_ > kMinDirectionForce)) {
+    if (!(share > 0.0) || !(size_ > kMinFelt)) {
         return wrench;
     }
     const Wrench mix = sumOf(wrench, turnBack_, share * std::min(size_, turnedForce_));
@@ -209,7 +207,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
         const Wrench& lost = fade_.lost();
         const double out = glm::dot(travel.moved, lost.force) + glm::dot(travel.turned, lost.torque); // [N m]
         const double released =
-            input.springs.stiffness * std::max(0.0, out) / std::max(kMinDirectionForce, fade_.size());
+            input.springs.stiffness * std::max(0.0, out) / std::max(kMinFelt, fade_.size());
         wrench = sumOf(wrench, fade_.step(wrench, released, k_, elapsed_));
     }
     lastFelt_ = wrench;

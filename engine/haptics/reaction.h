@@ -6,6 +6,7 @@
 #include "engine/haptics/coupling.h"
 #include "engine/haptics/reaction_fade.h"
 #include "engine/haptics/surface_noise.h"
+#include "engine/haptics/wrench_metric.h"
 
 namespace fathom {
 
@@ -55,7 +56,7 @@ public:
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
     bool appears() const noexcept {
-        return appears_ || turnLeft_ > 0.0 || held_ > kMinHeld || noise_.withholds();
+        return appears_ || turnLeft_ > 0.0 || held_ > kMinFelt || noise_.withholds();
     }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
@@ -63,7 +64,6 @@ public:
     static constexpr double kMaxRiseRate = 100.0;  // [N/s]
     static constexpr double kLeavingSpeed = 0.25;  // [m/s] a hand that leaves this fast needs no further rise
     static constexpr double kLongestFrame = 0.033; // [s]
-    static constexpr double kMinHeld = 1e-3;       // [N] less is not felt
 
 private:
     struct Travel { // of the hand's end of the spring in this tick, not by shift()

@@ -12,7 +12,6 @@ namespace fathom {
 namespace {
 
 constexpr double kMinByHand = 1e-6;         // [N] less is rounding
-constexpr double kMinFelt = 1e-3;           // [N] less is not felt
 constexpr double kWithheldShare = 0.5;      // of the spring
 constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
 constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant

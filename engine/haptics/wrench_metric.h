@@ -9,6 +9,8 @@
 
 namespace fathom {
 
+inline constexpr double kMinFelt = 1e-3; // [N] a smaller wrench is not felt and has no direction
+
 // f1 f2 + tau1 tau2 / k^2 [N^2]
 inline double metricProduct(const Wrench& a, const Wrench& b, double k) noexcept {
     return glm::dot(a.force, b.force) + glm::dot(a.torque, b.torque) / (k * k);
