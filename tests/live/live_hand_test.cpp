@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `replay --realtime` with a live hand on a bridge socket, and an observer on the view socket.
+#include "tests/devices/socket_rig.h"
 #include "tests/rig/cause_check.h"
 #include "tests/rig/played_device.h"
 #include "tests/rig/stage.h"
@@ -263,9 +264,8 @@ TEST_CASE(
     std::thread bridge([&] {
         for (uint64_t sequence = 1; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
             engine = engine.open() ? std::move(engine) : endpoint.accept();
-            fathom_door_hand packet{}; // its orientation is 0 0 0 0
-            packet.header = socketHeader(FATHOM_DOOR_HAND, sizeof packet, sequence++);
-            packet.status = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+            fathom_door_hand packet = testing::handPacket(sequence++, 0.0);
+            packet.orientation[0] = 0.0; // it is 0 0 0 0
             std::string("falcon").copy(packet.preset, sizeof packet.preset);
             engine.send(packet);
         }
