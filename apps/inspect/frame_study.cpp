@@ -4,10 +4,10 @@
 #include "apps/output/image.h"
 #include "apps/output/output_folder.h"
 #include "engine/types/colour_copy.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <iomanip>
 #include <numeric>
 #include <ostream>
@@ -19,9 +19,7 @@ namespace {
 constexpr int kBars = 12, kLongestBar = 40;
 
 std::string fixed(double value, int digits) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
+    return printed("%.*f", digits, value);
 }
 
 bool isGrey(uint32_t rgba) {

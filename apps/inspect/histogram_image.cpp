@@ -2,10 +2,10 @@
 #include "apps/inspect/histogram_image.h"
 
 #include "apps/output/image.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom {
 
@@ -38,10 +38,8 @@ void drawBars(const Image& image, double left, const std::vector<uint64_t>& coun
 }
 
 void drawLabel(const Image& image, double left, double share, const char* form, double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, form, value);
-    image.text(left + kPanelMargin + share * (kPanel - 2.0 * kPanelMargin), kBarsBottom + 18.0, text, 13.0,
-               kInk, Align::Centre);
+    image.text(left + kPanelMargin + share * (kPanel - 2.0 * kPanelMargin), kBarsBottom + 18.0,
+               printed(form, value), 13.0, kInk, Align::Centre);
 }
 
 } // namespace

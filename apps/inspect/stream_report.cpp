@@ -5,9 +5,9 @@
 #include "engine/types/error.h"
 #include "engine/types/median.h"
 #include "engine/types/printable.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <ostream>
 
@@ -15,25 +15,19 @@ namespace fathom {
 
 namespace {
 
-std::string textOf(const char* form, double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, form, value);
-    return text;
-}
-
 std::string padded(std::string text, size_t width) {
     text.resize(std::max(width, text.size()), ' ');
     return text + "  ";
 }
 
 std::string rateText(const Rate& rate) {
-    return rate.perSecond > 0.0 ? textOf("%.4g/s", rate.perSecond) : "-";
+    return rate.perSecond > 0.0 ? printed("%.4g/s", rate.perSecond) : "-";
 }
 
 std::string gapText(const Rate& rate) {
     return rate.gaps == 0 ? "-"
-                          : std::to_string(rate.gaps) + ", " + textOf("%.3g s", rate.longestGap) +
-                                textOf(" at %.4g s", rate.at);
+                          : std::to_string(rate.gaps) + ", " + printed("%.3g s", rate.longestGap) +
+                                printed(" at %.4g s", rate.at);
 }
 
 std::map<size_t, ImageStream> imagesOf(MessageFile& file, const std::string& infoTopic, std::ostream& out) {
@@ -92,8 +86,8 @@ Rate Rate::of(const std::vector<MessageEntry>& messages) {
 
 std::string lensText(const Intrinsics& lens) {
     std::string text = std::to_string(lens.width) + "x" + std::to_string(lens.height) +
-                       textOf(", fx %.5g", lens.fx) + textOf(" fy %.5g", lens.fy) +
-                       textOf(" cx %.5g", lens.cx) + textOf(" cy %.5g", lens.cy);
+                       printed(", fx %.5g", lens.fx) + printed(" fy %.5g", lens.fy) +
+                       printed(" cx %.5g", lens.cx) + printed(" cy %.5g", lens.cy);
     if (lens.fan) {
         return text + ", a fan of beams";
     }
@@ -105,7 +99,7 @@ std::string lensText(const Intrinsics& lens) {
             : lens.divisor != std::array<double, 3>{}   ? ", rational_polynomial"
                                                         : ", plumb_bob";
     for (const double k : lens.distortion) {
-        text += textOf(" %.4g", k);
+        text += printed(" %.4g", k);
     }
     return text;
 }

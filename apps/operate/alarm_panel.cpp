@@ -2,9 +2,9 @@
 // Alarms as lines over the view, and as a panel with their history.
 #include "apps/operate/alarms.h"
 #include "apps/operate/theme.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -14,10 +14,8 @@ constexpr ImU32 kDimmed = IM_COL32(150, 162, 180, 200);
 constexpr size_t kMaxLines = 3;
 
 std::string timeText(double t) {
-    char text[32];
     const int minutes = static_cast<int>(t) / 60;
-    std::snprintf(text, sizeof text, "%d:%04.1f", minutes, t - 60.0 * minutes);
-    return text;
+    return printed("%d:%04.1f", minutes, t - 60.0 * minutes);
 }
 
 // One line over a view on a dark plate; its height.
@@ -97,10 +95,8 @@ void drawAlarms(Console& console, const Alarms& alarms) {
     ImGui::Separator();
     ImGui::TextDisabled("Ended:");
     for (const EndedAlarm& ended : alarms.history()) {
-        char lasted[32];
-        std::snprintf(lasted, sizeof lasted, ", %.1f s", ended.end - ended.since);
         colouredText(kDimmed, (std::string(levelSign(ended.level)) + " " + timeText(ended.since) + "  " +
-                               ended.what + lasted)
+                               ended.what + printed(", %.1f s", ended.end - ended.since))
                                   .c_str());
     }
 }

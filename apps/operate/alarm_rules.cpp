@@ -3,9 +3,9 @@
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
-#include "apps/operate/printed.h"
 #include "apps/operate/wrench_figures.h"
 #include "apps/output/silhouette.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,10 +2,10 @@
 #include "apps/operate/arming.h"
 
 #include "engine/cycle/haptic_notes.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -17,9 +17,7 @@ constexpr double kRecent = 0.5; // [s] age of a contact that explains the distan
 constexpr double kTwist = 0.35; // [rad] most turn between them, where the device renders torque
 
 std::string thousandths(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f", value * 1e3);
-    return text;
+    return printed("%.0f", value * 1e3);
 }
 
 // How the hand comes back to the tool. Without forces, the clutch brings it there.

@@ -3,10 +3,10 @@
 
 #include "apps/operate/view_lines.h"
 #include "apps/operate/view_marks.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace fathom::operate {
@@ -96,14 +96,8 @@ std::string gapText(double gap) {
     if (!std::isfinite(gap)) {
         return std::isnan(gap) ? "unknown" : "no region";
     }
-    char text[32];
     const double mm = 1e3 * std::max(0.0, gap);
-    std::snprintf(text, sizeof text,
-                  mm < 9.95    ? "%.1f mm"
-                  : mm < 999.5 ? "%.0f mm"
-                               : "%.2f m",
-                  mm < 999.5 ? mm : 1e-3 * mm);
-    return text;
+    return mm < 999.5 ? printed(mm < 9.95 ? "%.1f mm" : "%.0f mm", mm) : printed("%.2f m", 1e-3 * mm);
 }
 
 DepthCues depthCues(const HostFixtures& set, std::vector<Sphere> tool, double measured) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/device_panel.h"
 
-#include "apps/operate/printed.h"
+#include "engine/types/printed.h"
 
 namespace fathom::operate {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/disk_space.h"
 
-#include "apps/operate/printed.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The pilot's forces: two bars with their limits.
 #include "apps/operate/hud.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -14,8 +14,7 @@ void stripBar(const HudInput& input, ImVec2 at, ImVec2 size, const WrenchFigures
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     ImFont* const font = input.fonts.bold;
     const bool torque = f.part == &TraceWrench::torque;
-    char text[32];
-    std::snprintf(text, sizeof text, torque ? "%.2f %s" : "%.1f %s", f.delivered, f.unit);
+    const std::string text = printed(torque ? "%.2f %s" : "%.1f %s", f.delivered, f.unit);
     const float letter = font->FontSize, line = 0.5f * (size.y - letter);
     const float words = font->CalcTextSizeA(letter, 1e9f, 0.0f, f.name).x + 0.7f * letter;
     const float figure = font->CalcTextSizeA(letter, 1e9f, 0.0f, "00.0 N m").x + 0.7f * letter;
@@ -36,7 +35,7 @@ void stripBar(const HudInput& input, ImVec2 at, ImVec2 size, const WrenchFigures
     }
     list.AddLine({b.x, a.y - 3.0f}, {b.x, b.y + 3.0f}, colour::kWarning, 3.0f);
     list.AddText(font, letter, {b.x + 0.5f * letter, at.y + line},
-                 f.saturated() ? colour::kWarning : colour::kText, text);
+                 f.saturated() ? colour::kWarning : colour::kText, text.c_str());
 }
 
 } // namespace

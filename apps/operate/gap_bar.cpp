@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -26,12 +25,11 @@ void barTicks(ImDrawList& list, const Fonts& fonts, ImVec2 a, ImVec2 b) {
     const bool dense = b.y - a.y < 6.0f * fonts.small->FontSize;
     for (int mm = 0; mm <= 200; mm += dense ? 100 : 50) {
         const float y = b.y - (b.y - a.y) * static_cast<float>(mm) / 200.0f;
-        char text[12];
-        std::snprintf(text, sizeof text, "%d", mm);
-        const ImVec2 size = fonts.small->CalcTextSizeA(fonts.small->FontSize, 1e9f, 0.0f, text);
+        const std::string text = std::to_string(mm);
+        const ImVec2 size = fonts.small->CalcTextSizeA(fonts.small->FontSize, 1e9f, 0.0f, text.c_str());
         list.AddLine({a.x - 4.0f, y}, {a.x, y}, colour::kQuiet, 1.2f);
         list.AddText(fonts.small, fonts.small->FontSize, {a.x - 7.0f - size.x, y - 0.5f * size.y},
-                     colour::kQuiet, text);
+                     colour::kQuiet, text.c_str());
     }
 }
 

@@ -2,7 +2,7 @@
 // The engineer's top line: the state, and figures with their names.
 #include "apps/operate/disk_space.h"
 #include "apps/operate/hud.h"
-#include "apps/operate/printed.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/image_export.h"
 
-#include "apps/operate/printed.h"
 #include "apps/operate/unused_name.h"
 #include "engine/types/error.h"
+#include "engine/types/printed.h"
 
 #include <utility>
 

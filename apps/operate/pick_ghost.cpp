@@ -2,10 +2,10 @@
 #include "apps/operate/pick_ghost.h"
 
 #include "apps/operate/view_lines.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 namespace fathom::operate {
@@ -58,9 +58,7 @@ std::vector<std::string> warningsOf(const std::function<double(const Sphere&)>& 
         deepest = std::max(deepest, cover(s));
     }
     if (deepest > 0.0) {
-        char text[80];
-        std::snprintf(text, sizeof text, "covers the tool: it will be pushed out %.0f mm", 1e3 * deepest);
-        warnings.emplace_back(text);
+        warnings.push_back(printed("covers the tool: it will be pushed out %.0f mm", 1e3 * deepest));
     }
     for (const GuidancePose& g : targets) {
         if (g.present && g.fixture < scene.fixtures.size() && cover({g.target.position, 0.0}) > 0.0) {

@@ -3,10 +3,10 @@
 #include "apps/operate/pick_panel.h"
 
 #include "apps/operate/theme.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace fathom::operate {
@@ -112,9 +112,9 @@ bool partRules(Console& console, const SceneSnapshot& snapshot) {
     markPlace(console, "only part");
     explain(console, "Of several things of this colour, only the one you clicked: a box around it limits the "
                      "fixture. Not for a thing that moves");
-    char text[64];
-    std::snprintf(text, sizeof text, "Ignore specks under %u points", speckPoints(snapshot.set.camera.depth));
-    changed = ImGui::Checkbox(text, &rules.noSpecks) || changed;
+    const std::string specks =
+        printed("Ignore specks under %u points", speckPoints(snapshot.set.camera.depth));
+    changed = ImGui::Checkbox(specks.c_str(), &rules.noSpecks) || changed;
     markPlace(console, "no specks");
     explain(console, "Small separate parts do not count. Specks inside the box still do");
     return changed;
@@ -123,15 +123,12 @@ bool partRules(Console& console, const SceneSnapshot& snapshot) {
 // How many points are selected, in how many parts.
 void foundParts(const Console& console, const FixtureEditor& editor) {
     const PickedParts& found = console.pick.found;
-    char text[96];
-    if (console.pick.row >= 0) {
-        std::snprintf(text, sizeof text, "Selects %zu points (cyan)", editor.selectedPoints());
-    } else {
-        std::snprintf(text, sizeof text, "Selects %zu points (cyan): %u of %u connected parts",
-                      editor.selectedPoints(), found.taken, found.parts);
+    std::string text = printed("Selects %zu points (cyan)", editor.selectedPoints());
+    if (console.pick.row < 0) {
+        text += printed(": %u of %u connected parts", found.taken, found.parts);
     }
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextColored(ImColor(colour::kPicked), "%s", text);
+    ImGui::TextColored(ImColor(colour::kPicked), "%s", text.c_str());
     ImGui::PopTextWrapPos();
 }
 

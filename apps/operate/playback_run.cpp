@@ -3,12 +3,12 @@
 
 #include "apps/operate/keys.h"
 #include "apps/operate/open_card.h"
-#include "apps/operate/printed.h"
 #include "apps/operate/view_click.h"
 #include "devices/recorded/hand_csv.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printed.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>

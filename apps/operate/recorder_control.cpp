@@ -2,9 +2,9 @@
 #include "apps/operate/recorder_control.h"
 
 #include "apps/binding/scene_files.h"
-#include "apps/operate/printed.h"
 #include "apps/operate/unused_name.h"
 #include "engine/types/error.h"
+#include "engine/types/printed.h"
 
 #include <imgui.h>
 #include <utility>

@@ -5,10 +5,10 @@
 #include "apps/output/silhouette.h"
 #include "engine/types/angle.h"
 #include "engine/types/median.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace fathom::operate {
@@ -86,9 +86,7 @@ void drawScaleBar(ImDrawList& list, const ViewPort& port, double distance) {
                  longest = 0.22 * port.where.width * metresPerPixel;
     double length = std::pow(10.0, std::floor(std::log10(longest)));
     length *= 5.0 * length <= longest ? 5.0 : 2.0 * length <= longest ? 2.0 : 1.0;
-    char text[32];
-    std::snprintf(text, sizeof text, length < 1.0 ? "%.0f mm" : "%.0f m",
-                  length < 1.0 ? 1e3 * length : length);
+    const std::string text = length < 1.0 ? printed("%.0f mm", 1e3 * length) : printed("%.0f m", length);
     const float line = ImGui::GetTextLineHeight(), pixels = static_cast<float>(length / metresPerPixel);
     // A large view has the stop plate at its right.
     const float right = static_cast<float>(port.where.width) > 40.0f * line ? 12.0f : 2.0f; // [lines]
@@ -100,8 +98,8 @@ void drawScaleBar(ImDrawList& list, const ViewPort& port, double distance) {
         list.AddLine({a.x, a.y - 5.0f}, {a.x, a.y + 5.0f}, c, w);
         list.AddLine({b.x, b.y - 5.0f}, {b.x, b.y + 5.0f}, c, w);
     }
-    const ImVec2 words = ImGui::CalcTextSize(text);
-    list.AddText({0.5f * (a.x + b.x - words.x), a.y - words.y - 4.0f}, colour::kText, text);
+    const ImVec2 words = ImGui::CalcTextSize(text.c_str());
+    list.AddText({0.5f * (a.x + b.x - words.x), a.y - words.y - 4.0f}, colour::kText, text.c_str());
 }
 
 } // namespace fathom::operate

@@ -7,7 +7,6 @@
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <imgui.h>
 #include <optional>
 
@@ -161,11 +160,9 @@ void TimeLinePanel::drawButtons(Console& console) const {
     if (button(">|", "to end", "End: to the end")) {
         line.t = line.duration;
     }
-    char text[160];
-    std::snprintf(text, sizeof text, "%.3f of %.3f s   frame %u of %u   speed %.3g   peak %.2f N%s", line.t,
-                  line.duration, line.frame + 1, line.frames, line.speed, double{peak_},
-                  line.wholeMemory ? "" : "   this frame only");
-    ImGui::TextDisabled("  %s", text);
+    ImGui::TextDisabled("  %.3f of %.3f s   frame %u of %u   speed %.3g   peak %.2f N%s", line.t,
+                        line.duration, line.frame + 1, line.frames, line.speed, double{peak_},
+                        line.wholeMemory ? "" : "   this frame only");
 }
 
 // The recorded force, contact in yellow, guidance in blue, one mark per frame, and the position marker.

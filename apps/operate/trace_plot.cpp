@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/trace_plot.h"
 
-#include "apps/operate/printed.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,9 @@
 #include "apps/operate/theme.h"
 #include "apps/operate/view_lines.h"
 #include "engine/types/angle.h"
+#include "engine/types/printed.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -84,12 +84,10 @@ void measuredAt(ImDrawList& list, const MarksInput& input) {
     }
     dashed(list, *tip, *tool, colour, 1.4f, 4.0f);
     if (input.names) {
-        char text[64];
-        std::snprintf(text, sizeof text,
-                      measured.known ? "arm measured, %.0f mm off" : "arm, last measured %.1f s ago",
-                      measured.known ? measured.apart * 1e3 : measured.age);
+        const std::string text = measured.known ? printed("arm measured, %.0f mm off", measured.apart * 1e3)
+                                                : printed("arm, last measured %.1f s ago", measured.age);
         const float right = static_cast<float>(input.port.where.x + input.port.where.width);
-        const float room = right - ImGui::CalcTextSize(text).x - 6.0f;
+        const float room = right - ImGui::CalcTextSize(text.c_str()).x - 6.0f;
         drawWords(list, {std::min(tip->x + 12.0f, room), tip->y + 34.0f}, text, colour);
     }
 }
@@ -159,8 +157,7 @@ void force(ImDrawList& list, const MarksInput& input, const ImVec4& taken) {
     }
     drawArrow(list, *from, *to, colour::kForce, 3.4f);
     if (input.names) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.2f N", size);
+        const std::string text = printed("%.2f N", size);
         drawWords(list, besideWords({to->x + 10.0f, to->y - 8.0f}, text, taken), text, colour::kForce);
     }
 }

@@ -3,8 +3,7 @@
 
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/theme.h"
-
-#include <cstdio>
+#include "engine/types/printed.h"
 
 namespace fathom::operate {
 
@@ -41,13 +40,11 @@ std::string obstacle(const Block& block, const Scene& scene, const HostFixtures&
 } // namespace
 
 std::string whyBlocked(const Block& block, const Scene& scene, const HostFixtures& set) {
-    char rest[160];
-    std::snprintf(rest, sizeof rest,
-                  ": tool sphere %u stopped; the hand is %.1f mm beyond (at most %.1f), %.2f N, since frame "
-                  "%lld (%.2f s)",
-                  block.touch.leaf, block.beyond * 1e3, block.deepest * 1e3, block.force,
-                  static_cast<long long>(block.sinceFrame), block.since);
-    return obstacle(block, scene, set) + rest;
+    return obstacle(block, scene, set) +
+           printed(": tool sphere %u stopped; the hand is %.1f mm beyond (at most %.1f), %.2f N, since frame "
+                   "%lld (%.2f s)",
+                   block.touch.leaf, block.beyond * 1e3, block.deepest * 1e3, block.force,
+                   static_cast<long long>(block.sinceFrame), block.since);
 }
 
 void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds) {

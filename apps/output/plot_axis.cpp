@@ -2,10 +2,10 @@
 #include "apps/output/plot_axis.h"
 
 #include "engine/types/number_text.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom {
 
@@ -27,26 +27,18 @@ std::vector<PlotTick> ticksOf(const PlotAxis& axis, int most) {
     const double first = std::ceil(axis.lo / step - 1e-9);
     const double last = std::floor(axis.hi / step + 1e-9);
     for (double k = first; k <= last; k += 1.0) {
-        char label[48];
-        std::snprintf(label, sizeof label, "%.*f", decimals, k * step + 0.0); // + 0.0: never "-0"
-        ticks.push_back({k * step, label});
+        ticks.push_back({k * step, printed("%.*f", decimals, k * step + 0.0)}); // + 0.0: never "-0"
     }
     return ticks;
 }
 
 std::string shortNumber(double value) {
-    char text[48];
     const double size = std::abs(value);
-    if (size != 0.0 && (size < 1e-4 || size >= 1e5)) {
-        std::snprintf(text, sizeof text, "%.3g", value);
-        return text;
+    if (size != 0.0 && (size < 0.1 || size >= 1e5)) {
+        return printed("%.3g", value);
     }
     const int whole = size < 1.0 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
-    std::snprintf(text, sizeof text, "%.*f", std::clamp(4 - std::max(whole, 1), 0, 3), value);
-    if (size != 0.0 && size < 0.1) {
-        std::snprintf(text, sizeof text, "%.3g", value);
-    }
-    return text;
+    return printed("%.*f", std::clamp(4 - std::max(whole, 1), 0, 3), value);
 }
 
 std::string roundNumber(double value) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/output/progress.h"
 
+#include "engine/types/printed.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -21,13 +23,7 @@ bool isTerminal(std::FILE* out) {
 
 std::string rate(double count, double seconds) {
     const double value = seconds > 0.0 ? count / seconds : 0.0;
-    char text[32];
-    if (value >= 1000.0) {
-        std::snprintf(text, sizeof text, "%.1f k ", value / 1000.0);
-    } else {
-        std::snprintf(text, sizeof text, "%.0f ", value);
-    }
-    return text;
+    return value >= 1000.0 ? printed("%.1f k ", value / 1000.0) : printed("%.0f ", value);
 }
 
 // ", 12 min 05 s left"; empty where it cannot be known yet.
@@ -40,15 +36,11 @@ std::string timeLeft(const ProgressCounts& counts, double wallSeconds) {
     }
     const double left = std::min(wallSeconds * (all - done) / done, 3.6e6);
     const auto seconds = static_cast<unsigned>(left + 0.5);
-    char text[48];
     if (seconds < 60) {
-        std::snprintf(text, sizeof text, ", %u s left", seconds);
-    } else if (seconds < 3600) {
-        std::snprintf(text, sizeof text, ", %u min %02u s left", seconds / 60, seconds % 60);
-    } else {
-        std::snprintf(text, sizeof text, ", %u h %02u min left", seconds / 3600, seconds / 60 % 60);
+        return printed(", %u s left", seconds);
     }
-    return text;
+    return seconds < 3600 ? printed(", %u min %02u s left", seconds / 60, seconds % 60)
+                          : printed(", %u h %02u min left", seconds / 3600, seconds / 60 % 60);
 }
 
 } // namespace
@@ -63,10 +55,8 @@ std::string progressText(const ProgressCounts& counts, double wallSeconds) {
     if (counts.framesOnly) {
         return text;
     }
-    char tail[64];
     const double pace = wallSeconds > 0.0 ? counts.runSeconds / wallSeconds : 0.0;
-    std::snprintf(tail, sizeof tail, ", %.2f x real time", pace);
-    return text + tail;
+    return text + printed(", %.2f x real time", pace);
 }
 
 Progress::Progress(std::FILE* out)

@@ -12,10 +12,10 @@
 #include "engine/types/input_files.h"
 #include "engine/types/log.h"
 #include "engine/types/output_file.h"
+#include "engine/types/printed.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -77,12 +77,9 @@ std::vector<PointPair> seenTargets(const RegisterOptions& options) {
 std::string asYaml(const RigidFit& fit) {
     const dvec3& t = fit.baseTcamera.position;
     const dquat& q = fit.baseTcamera.rotation;
-    char text[400];
-    std::snprintf(text, sizeof text,
-                  "base_T_camera: {xyz: [%.9g, %.9g, %.9g], quat_xyzw: [%.12g, %.12g, %.12g, %.12g]}\n"
-                  "registration_sigma: %.6g\n",
-                  t.x, t.y, t.z, q.x, q.y, q.z, q.w, fit.sigma);
-    return text;
+    return printed("base_T_camera: {xyz: [%.9g, %.9g, %.9g], quat_xyzw: [%.12g, %.12g, %.12g, %.12g]}\n"
+                   "registration_sigma: %.6g\n",
+                   t.x, t.y, t.z, q.x, q.y, q.z, q.w, fit.sigma);
 }
 
 // The file of points, tags or a board. Throws BadInput for none, for several, and for options that points

@@ -2,10 +2,10 @@
 #include "apps/register/robust_fit.h"
 
 #include "engine/types/median.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <random>
@@ -120,12 +120,6 @@ std::vector<PointPair> mirrored(Pairs pairs) {
     return all;
 }
 
-std::string print(const char* form, double a, double b = 0.0) {
-    char text[160];
-    std::snprintf(text, sizeof text, form, a, b);
-    return text;
-}
-
 // The pairs farthest from a pose, farthest first.
 std::vector<RobustFit::Outlier> farthest(Pairs pairs, const Pose& pose, double beyond) {
     std::vector<RobustFit::Outlier> all;
@@ -156,7 +150,8 @@ std::string named(const std::vector<RobustFit::Outlier>& worst) {
     std::string text = "; worst";
     for (size_t i = 0; i < worst.size() && names.size() < kWorst; ++i) {
         if (std::ranges::find(names, worst[i].name) == names.end()) {
-            text += (names.empty() ? " " : ", ") + worst[i].name + print(" %.3g mm", 1e3 * worst[i].distance);
+            text +=
+                (names.empty() ? " " : ", ") + worst[i].name + printed(" %.3g mm", 1e3 * worst[i].distance);
             names.push_back(worst[i].name);
         }
     }
@@ -197,19 +192,20 @@ std::string rejectionOf(Pairs pairs, const FitLimits& limits, const Consensus& f
         return glm::length(a.camera) < glm::length(b.camera);
     });
     if (glm::length(nearest->camera) >= kFar) {
-        return print("every point is over %.4g m from the camera (millimetres?)", kFar);
+        return printed("every point is over %.4g m from the camera (millimetres?)", kFar);
     }
     const double scale = scaleOf(pairs);
     if (!(std::abs(scale - 1.0) <= kMaxScale)) {
-        return print("distances in the base frame are %.6g times those in the camera frame (units?)", scale) +
+        return printed("distances in the base frame are %.6g times those in the camera frame (units?)",
+                       scale) +
                worst;
     }
     if (isMirrored(pairs, found)) {
         return "the pairs fit a mirror image: an axis is negated, or two are swapped" + worst;
     }
     if (!(robust.fit.sigma <= limits.residual)) {
-        return print("standard deviation of %.3g mm, over the bound of %.3g mm", 1e3 * robust.fit.sigma,
-                     1e3 * limits.residual) +
+        return printed("standard deviation of %.3g mm, over the bound of %.3g mm", 1e3 * robust.fit.sigma,
+                       1e3 * limits.residual) +
                worst;
     }
     if (static_cast<double>(robust.outliers.size()) >
@@ -220,8 +216,8 @@ std::string rejectionOf(Pairs pairs, const FitLimits& limits, const Consensus& f
     if (!(robust.fit.turn <= kMaxTurn)) {
         return "the points lie too near to one line, or to each other, for their scatter: the rotation is "
                "uncertain by " +
-               print("%.2g degrees, over %.2g degrees", glm::degrees(std::min(robust.fit.turn, 1.0)),
-                     glm::degrees(kMaxTurn));
+               printed("%.2g degrees, over %.2g degrees", glm::degrees(std::min(robust.fit.turn, 1.0)),
+                       glm::degrees(kMaxTurn));
     }
     return "";
 }

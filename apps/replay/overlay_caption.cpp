@@ -3,6 +3,7 @@
 #include "apps/output/plot_axis.h"
 #include "apps/replay/overlay_layers.h"
 #include "engine/types/angle.h"
+#include "engine/types/printed.h"
 
 #include <cmath>
 
@@ -16,10 +17,8 @@ constexpr Colour kQuietWords{0.60, 0.64, 0.69};
 std::string moment(const OverlayInput& input) {
     const StepRecord& tick = input.tick;
     const int64_t frame = input.set != nullptr ? input.set->frame : -1;
-    char time[40];
-    std::snprintf(time, sizeof time, "%.3f s", tick.t);
     std::string text = frame >= 0 ? "frame " + std::to_string(frame) : std::string("no frame");
-    text += std::string("   ") + time + "   " + stateName(tick.state);
+    text += printed("   %.3f s   ", tick.t) + stateName(tick.state);
     if (isFinite(tick.wrench.force) && isFinite(tick.wrench.torque)) {
         text += "   force " + shortNumber(glm::length(tick.wrench.force)) + " N   torque " +
                 shortNumber(glm::length(tick.wrench.torque)) + " N m";

@@ -6,9 +6,9 @@
 #include "engine/cycle/haptic_notes.h"
 #include "engine/cycle/step_record.h"
 #include "engine/scene/dead_gates.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 namespace fathom {
@@ -19,12 +19,6 @@ constexpr int kGreySpread = 6; // largest difference of the channels of a pixel 
 constexpr size_t kColourStep = 7;  // every 7th pixel is enough
 constexpr uint32_t kBlack = 16;    // brightest channel of an image without light
 constexpr uint32_t kIntervals = 5; // between frames, all of them too long
-
-std::string print(const char* form, double a, double b = 0.0) {
-    char text[120];
-    std::snprintf(text, sizeof text, form, a, b);
-    return text;
-}
 
 bool isBlack(std::span<const uint32_t> colour) {
     for (size_t i = 0; i < colour.size(); i += kColourStep) {
@@ -63,13 +57,13 @@ std::string depthCause(const HostFixtures& set, double nearZ, double farZ) {
         least = d != 0 ? std::min(least, d) : least;
         most = std::max(most, d);
     }
-    const std::string band = print("no depth between camera.near %.6g and camera.far %.6g m", nearZ, farZ);
+    const std::string band = printed("no depth between camera.near %.6g and camera.far %.6g m", nearZ, farZ);
     if (most == 0) {
         return band;
     }
     const double unit = set.camera.metresPerUnit;
-    return band + print("; readings are %.6g to %.6g m", least * unit, most * unit) +
-           print(", with a depth unit of %.6g m", unit);
+    return band + printed("; readings are %.6g to %.6g m", least * unit, most * unit) +
+           printed(", with a depth unit of %.6g m", unit);
 }
 
 } // namespace
@@ -164,7 +158,7 @@ void RunWatch::frame(double t, const cloud::FrameCounts& counts, const HostFixtu
             state.cause = causeOf(state, marked, counts.valid, set, colour);
         }
         if (t - *state.none >= kPatience) {
-            warnClass(state, print("from %.2f s on for %.0f s", *state.none, kPatience));
+            warnClass(state, printed("from %.2f s on for %.0f s", *state.none, kPatience));
         }
     }
 }
@@ -219,7 +213,7 @@ std::string RunWatch::causeOfState() const {
 
 void RunWatch::warnState(double seconds) {
     warnings_.add("state " + quiet_.state, "state '" + quiet_.state + "' from " +
-                                               print("%.2f s on for %.3g s: ", quiet_.since, seconds) +
+                                               printed("%.2f s on for %.3g s: ", quiet_.since, seconds) +
                                                causeOfState());
 }
 
@@ -231,7 +225,7 @@ void RunWatch::warnVanished(double t) {
             cause = "fixture '" + fixtures_[state.row].name + "' has no region: " + state.cause;
         }
     }
-    warnings_.add("vanished", print("a region disappeared at %.2f s while it pressed: ", t) + cause);
+    warnings_.add("vanished", printed("a region disappeared at %.2f s while it pressed: ", t) + cause);
 }
 
 // Below 10 frames per second forces fade between two frames.
@@ -240,8 +234,8 @@ void RunWatch::watchRate(double t) {
     rate_.intervals += rate_.framed ? 1 : 0;
     rate_.longIntervals += rate_.framed && interval > kStaleAfter ? 1 : 0;
     if (rate_.intervals >= kIntervals && rate_.longIntervals == rate_.intervals) {
-        warnings_.add("frame rate", print("frames come %.3g s apart: forces fade %.3g s after each", interval,
-                                          kStaleAfter));
+        warnings_.add("frame rate", printed("frames come %.3g s apart: forces fade %.3g s after each",
+                                            interval, kStaleAfter));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "apps/output/plot_axis.h"
 #include "apps/replay/traces_bands.h"
 #include "apps/replay/traces_style.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -143,12 +144,11 @@ void drawPeak(const Image& image, const Series& series, const PlotAxis& time, co
     const double x = time.at(series.delivered.peak.t), y = value.at(series.delivered.peak.value);
     image.dot(x, y, 5.5, kPaper);
     image.dot(x, y, 3.8, kTrace);
-    char seconds[40];
-    std::snprintf(seconds, sizeof seconds, " at %.3f s", series.delivered.peak.t);
     const bool toLeft = x > 0.5 * (kLeft + kRight);
     label(image, toLeft ? x - 14.0 : x + 14.0, std::max(y - 6.0, series.panel.top + 18.0),
-          "peak " + shortNumber(series.delivered.peak.value) + " " + series.unit + seconds, kInk,
-          toLeft ? Align::Right : Align::Left);
+          "peak " + shortNumber(series.delivered.peak.value) + " " + series.unit +
+              printed(" at %.3f s", series.delivered.peak.t),
+          kInk, toLeft ? Align::Right : Align::Left);
 }
 
 std::string remark(const TraceHistory& history) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/tune_words.h"
 
+#include "engine/types/printed.h"
+
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom::tune {
 
@@ -48,9 +49,7 @@ std::string valuesOf(const Score& score) {
 }
 
 std::string lineOf(size_t number, const TunePoint& point) {
-    char head[80];
-    std::snprintf(head, sizeof head, "%3zu  %-24s  ", number, settingNameOf(point).c_str());
-    return head + valuesOf(point.score);
+    return printed("%3zu  %-24s  ", number, settingNameOf(point).c_str()) + valuesOf(point.score);
 }
 
 std::string reasonOf(const TuneResult& result, const Trial& trial, const TunePoint& chosen) {

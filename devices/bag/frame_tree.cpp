@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/lower_case.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,7 @@ bool samePose(const Pose& a, const Pose& b, double apart, double turned) {
 }
 
 std::string millimetres(const dvec3& position) {
-    char text[100];
-    std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f) mm", 1e3 * position.x, 1e3 * position.y,
-                  1e3 * position.z);
-    return text;
+    return printed("(%.1f, %.1f, %.1f) mm", 1e3 * position.x, 1e3 * position.y, 1e3 * position.z);
 }
 
 bool unturned(const dquat& rotation) {
@@ -161,9 +159,8 @@ std::string FrameTree::twicePublished(const std::string& from, const std::string
     for (const std::string& child : linksBetween(from, to)) {
         const Link& link = links_.at(child);
         if (link.isTwice && !link.moves) {
-            char apart[40];
-            std::snprintf(apart, sizeof apart, "%.1f mm",
-                          1e3 * glm::distance(link.parentTchild.position, link.otherTchild.position));
+            const std::string apart = printed(
+                "%.1f mm", 1e3 * glm::distance(link.parentTchild.position, link.otherTchild.position));
             return "two transforms of '" + child + "' in tf_static differ by " + apart +
                    ": the first one is used";
         }

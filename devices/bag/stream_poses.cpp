@@ -6,6 +6,7 @@
 #include "devices/recorded/recording_extrinsics.h"
 #include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,10 +110,9 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
     if (nearlySame(inverse(*topic), *frames)) {
         return {frames, "", tf};
     }
-    char apart[160];
-    std::snprintf(apart, sizeof apart, "%.1f mm and %.2f degrees",
-                  1e3 * glm::distance(topic->position, frames->position),
-                  glm::degrees(turnBetween(*topic, *frames)));
+    const std::string apart =
+        printed("%.1f mm and %.2f degrees", 1e3 * glm::distance(topic->position, frames->position),
+                glm::degrees(turnBetween(*topic, *frames)));
     return {topic,
             "the driver's topic depth_to_color, which is used, and " + tf + " differ by " + apart +
                 "; extrinsics=FILE after the file name decides",

@@ -4,6 +4,7 @@
 
 #include "devices/bag/topic_words.h"
 #include "devices/recorded/lens_model.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,11 +47,9 @@ std::string StreamChooser::alignedWarning(const ImageStream& depth, const ImageS
         std::abs(depth.lens->fx / colour.lens->fx - 1.0) <= kMaxOther) {
         return "";
     }
-    char focal[2][24];
-    std::snprintf(focal[0], sizeof focal[0], " (fx %.1f) ", depth.lens->fx);
-    std::snprintf(focal[1], sizeof focal[1], " (fx %.1f)", colour.lens->fx);
-    return depth.name + focal[0] + "is named as aligned to colour, but has another lens than " + colour.name +
-           focal[1] +
+    return depth.name +
+           printed(" (fx %.1f) is named as aligned to colour, but has another lens than ", depth.lens->fx) +
+           colour.name + printed(" (fx %.1f)", colour.lens->fx) +
            ": its camera_info may be that of the raw depth; intrinsics=FILE after the file name replaces "
            "it";
 }

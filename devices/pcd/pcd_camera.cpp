@@ -6,11 +6,11 @@
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printed.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/matrix.hpp>
 
 namespace fathom {
@@ -158,13 +158,10 @@ std::string lensWarning(const Intrinsics& lens) {
     if (!isUnusualLens(lens)) {
         return "";
     }
-    char text[200];
-    std::snprintf(
-        text, sizeof text,
+    return printed(
         "the lens of its points has fx %.1f, fy %.1f and the principal point (%.1f, %.1f): they may be in "
         "another frame than their camera's",
         lens.fx, lens.fy, lens.cx, lens.cy);
-    return text;
 }
 
 PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)

@@ -3,12 +3,12 @@
 
 #include "engine/scene/camera_limits.h"
 #include "engine/types/number_text.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 namespace fathom {
@@ -113,13 +113,10 @@ std::vector<std::string> lensWarnings(const CameraInfo& camera) {
     std::vector<std::string> warnings;
     const auto add = [&](const Intrinsics& lens, const char* stream) {
         if (isUnusualLens(lens)) {
-            char text[200];
-            std::snprintf(
-                text, sizeof text,
-                "the lens of %s has fx %.1f, fy %.1f and the principal point (%.1f, %.1f) in images "
-                "of %ux%u: it may be that of another image size",
-                stream, lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height);
-            warnings.emplace_back(text);
+            warnings.push_back(
+                printed("the lens of %s has fx %.1f, fy %.1f and the principal point (%.1f, %.1f) in images "
+                        "of %ux%u: it may be that of another image size",
+                        stream, lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height));
         }
     };
     add(camera.depth, "depth");
@@ -148,12 +145,11 @@ void warnAboutSize(std::vector<std::string>& warnings, const std::string& matrix
         isUnusualLens(lens)) { // which has a warning of its own
         return;
     }
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  ": the principal point (%.1f, %.1f) is at %.0f %% of the width and the height of images of "
-                  "%ux%u: it may be the lens of another image size",
-                  lens.cx, lens.cy, 100.0 * share, lens.width, lens.height);
-    warnings.push_back(matrix + text);
+    warnings.push_back(
+        matrix +
+        printed(": the principal point (%.1f, %.1f) is at %.0f %% of the width and the height of images of "
+                "%ux%u: it may be the lens of another image size",
+                lens.cx, lens.cy, 100.0 * share, lens.width, lens.height));
 }
 
 bool sameLens(const Intrinsics& a, const Intrinsics& b) {

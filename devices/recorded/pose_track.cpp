@@ -5,6 +5,7 @@
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printed.h"
 #include "engine/types/rotation_fault.h"
 #include "engine/types/split_words.h"
 
@@ -12,7 +13,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 
@@ -226,18 +226,11 @@ std::string PoseTrack::unitHint(double t) const {
 
 std::string PoseTrack::whyNone(double t) const {
     const auto next = after(t);
-    char text[160];
-    if (next == poses_.begin()) {
-        std::snprintf(text, sizeof text, "its stamp %.3f s is %.3f s before the first pose of poses.txt", t,
-                      next->t - t);
-    } else if (next == poses_.end()) {
-        std::snprintf(text, sizeof text, "its stamp %.3f s is %.3f s after the last pose of poses.txt", t,
-                      t - poses_.back().t);
-    } else {
-        std::snprintf(text, sizeof text, "its stamp %.3f s is in a gap of %.3f s of poses.txt", t,
-                      next->t - (next - 1)->t);
-    }
-    return std::string(text) + unitHint(t);
+    const std::string where = next == poses_.begin() ? printed("%.3f s before the first pose", next->t - t)
+                              : next == poses_.end()
+                                  ? printed("%.3f s after the last pose", t - poses_.back().t)
+                                  : printed("in a gap of %.3f s", next->t - (next - 1)->t);
+    return printed("its stamp %.3f s is ", t) + where + " of poses.txt" + unitHint(t);
 }
 
 } // namespace fathom

@@ -6,6 +6,7 @@
 #include "devices/recorded/png_output.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
+#include "engine/types/printed.h"
 
 #include <array>
 #include <charconv>
@@ -19,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string numbered(const char* folder, uint32_t number) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%s/%06u.png", folder, number);
-    return name;
+    return printed("%s/%06u.png", folder, number);
 }
 
 // Nanoseconds, and all digits of a stamp that nine decimals do not restore.
@@ -41,9 +40,7 @@ std::string poseText(double stamp, const Pose& pose) {
     const dquat& q = pose.rotation;
     std::string line = text(stamp);
     for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
-        char digits[40];
-        std::snprintf(digits, sizeof digits, " %.17g", value);
-        line += digits;
+        line += printed(" %.17g", value);
     }
     return line;
 }

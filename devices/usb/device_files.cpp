@@ -4,11 +4,11 @@
 #include "devices/usb/closed_devices.h"
 #include "devices/usb/space_mouse.h"
 #include "devices/usb/udev_rule.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <optional>
@@ -78,9 +78,7 @@ std::vector<fs::path> entries(const fs::path& folder) {
 std::string numberText(const std::string& text) {
     int value = 0;
     std::from_chars(text.data(), text.data() + text.size(), value);
-    char padded[16];
-    std::snprintf(padded, sizeof padded, "%03d", value);
-    return padded;
+    return printed("%03d", value);
 }
 
 // Devices identified by their USB numbers.
@@ -172,9 +170,7 @@ std::vector<DeviceFile> findDeviceFiles(const fs::path& root) {
 }
 
 std::string usbIdText(uint16_t vendor, uint16_t product) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%04x:%04x", vendor, product);
-    return text;
+    return printed("%04x:%04x", vendor, product);
 }
 
 } // namespace fathom

@@ -2,10 +2,10 @@
 #include "engine/contact/tool.h"
 
 #include "engine/types/error.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -23,11 +23,9 @@ void checkTree(const SphereTree& tree) {
 void checkLeaf(const Sphere& leaf, size_t index) {
     const dvec3 far = glm::abs(leaf.centre);
     if (!(std::max({far.x, far.y, far.z}) <= kMaxToolReach) || !(leaf.radius <= kMaxLeafRadius)) {
-        char text[160];
-        std::snprintf(
-            text, sizeof text, "leaf %zu at (%.6g, %.6g, %.6g) m with radius %.6g m exceeds %g m or %g m",
-            index, leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMaxToolReach, kMaxLeafRadius);
-        throw Error(text);
+        throw Error(printed("leaf %zu at (%.6g, %.6g, %.6g) m with radius %.6g m exceeds %g m or %g m", index,
+                            leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMaxToolReach,
+                            kMaxLeafRadius));
     }
 }
 

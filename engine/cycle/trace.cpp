@@ -3,10 +3,10 @@
 
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
+#include "engine/types/printed.h"
 #include "engine/types/replaceable.h"
 
 #include <cmath>
-#include <cstdio>
 
 namespace fathom {
 
@@ -19,9 +19,7 @@ std::string number(double value) {
 }
 
 std::string micros(std::chrono::nanoseconds time) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.3f", static_cast<double>(time.count()) * 1e-3);
-    return text;
+    return printed("%.3f", static_cast<double>(time.count()) * 1e-3);
 }
 
 std::string arguments(const TraceDetail& detail) {

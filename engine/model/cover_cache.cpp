@@ -2,6 +2,7 @@
 #include "engine/model/cover_cache.h"
 
 #include "engine/types/cache_folder.h"
+#include "engine/types/printed.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -32,9 +33,7 @@ uint64_t hashOf(std::string_view bytes, uint64_t start) {
 }
 
 std::string hex(uint64_t value) {
-    char text[20];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-    return text;
+    return printed("%016llx", static_cast<unsigned long long>(value));
 }
 
 std::string textOf(const ShapeSpheres& made) {
@@ -43,10 +42,7 @@ std::string textOf(const ShapeSpheres& made) {
         text += "note " + note + "\n";
     }
     for (const Sphere& s : made.spheres) {
-        char line[160];
-        std::snprintf(line, sizeof line, "%.17g %.17g %.17g %.17g\n", s.centre.x, s.centre.y, s.centre.z,
-                      s.radius);
-        text += line;
+        text += printed("%.17g %.17g %.17g %.17g\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
     }
     return text + hex(hashOf(text, 0)) + "\n";
 }

@@ -6,12 +6,12 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/printable.h"
+#include "engine/types/printed.h"
 #include "engine/types/processors.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <set>
 #include <thread>
@@ -79,10 +79,8 @@ struct LinkCover {
 
 // Everything besides the file's content that the cover of a mesh depends on.
 std::string optionsText(const urdf::Mesh& mesh, const ShapeSource& source, uint32_t leaves) {
-    char text[160];
-    std::snprintf(text, sizeof text, "%.17g %.17g %.17g %u %d", mesh.scale.x, mesh.scale.y, mesh.scale.z,
-                  leaves, source.keepStray ? 1 : 0);
-    return text;
+    return printed("%.17g %.17g %.17g %u %d", mesh.scale.x, mesh.scale.y, mesh.scale.z, leaves,
+                   source.keepStray ? 1 : 0);
 }
 
 // Notes name the mesh file, whose name is no part of the content: the cache stores kFile instead.

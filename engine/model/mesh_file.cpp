@@ -7,12 +7,12 @@
 #include "engine/types/input_files.h"
 #include "engine/types/parse_number.h"
 #include "engine/types/printable.h"
+#include "engine/types/printed.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom {
 
@@ -24,9 +24,7 @@ constexpr uintmax_t kLargestMesh = 512u << 20;
 constexpr size_t kMaxTriangles = 2'000'000;
 
 std::string metres(double v) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g m", v);
-    return text;
+    return printed("%.4g m", v);
 }
 
 // The file's `up` axis becomes +z by the smallest rotation.

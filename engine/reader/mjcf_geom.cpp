@@ -2,9 +2,9 @@
 #include "engine/reader/mjcf_geom.h"
 
 #include "engine/model/xml_text.h"
+#include "engine/types/printed.h"
 
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace fathom {
@@ -56,9 +56,7 @@ std::set<std::string> pairedGeoms(const tinyxml2::XMLElement& root) {
 } // namespace
 
 std::string urdfNumber(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
+    return printed("%.17g", value);
 }
 
 std::string urdfOrigin(const Pose& pose) {

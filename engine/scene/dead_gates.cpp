@@ -2,10 +2,10 @@
 #include "engine/scene/dead_gates.h"
 
 #include "engine/types/joined.h"
+#include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <utility>
 
@@ -15,12 +15,6 @@ namespace {
 
 constexpr double kFewValues = 30.0; // of depth between near and far
 constexpr double kMaxRaw = 65535.0;
-
-std::string print(const char* form, double a, double b = 0.0, double c = 0.0) {
-    char text[160];
-    std::snprintf(text, sizeof text, form, a, b, c);
-    return text;
-}
 
 // Length of the longest ray of the image per metre of depth. Infinite for a distorted lens.
 double longestRay(const Intrinsics& lens) {
@@ -54,8 +48,8 @@ std::string deadColour(const FixtureClass& f, const CameraInfo& camera) {
 std::string deadRange(const FixtureClass& f, const Scene& scene, const CameraInfo& camera) {
     const double farthest = scene.farZ * longestRay(camera.depth);
     if (f.range && (f.range->hi < scene.nearZ || f.range->lo > farthest)) {
-        return print("its range of %.6g to %.6g m", f.range->lo, f.range->hi) +
-               print(" lies outside of camera.near %.6g to camera.far %.6g m", scene.nearZ, scene.farZ);
+        return printed("its range of %.6g to %.6g m", f.range->lo, f.range->hi) +
+               printed(" lies outside of camera.near %.6g to camera.far %.6g m", scene.nearZ, scene.farZ);
     }
     return "";
 }
@@ -101,12 +95,12 @@ std::vector<std::string> hueNotes(const Scene& scene) {
             continue;
         }
         const auto [lo, hi] = *f.hue;
-        const std::string named = "fixture '" + f.name + "': hue " + print("[%.6g, %.6g]", lo, hi);
+        const std::string named = "fixture '" + f.name + "': hue " + printed("[%.6g, %.6g]", lo, hi);
         if (lo == hi) {
             notes.push_back(named + " passes one hue only, not a range");
         } else if (std::max(lo, hi) <= 1.0) {
             notes.push_back(named + " is in degrees, 0 to 360" +
-                            print("; if it is a share of 1, give [%.6g, %.6g]", 360.0 * lo, 360.0 * hi));
+                            printed("; if it is a share of 1, give [%.6g, %.6g]", 360.0 * lo, 360.0 * hi));
         }
     }
     return notes;
@@ -143,8 +137,9 @@ std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera)
     const double values =
         std::floor(std::min(scene.farZ / unit, kMaxRaw)) - std::ceil(scene.nearZ / unit) + 1.0;
     if (points && values < kFewValues) {
-        dead.push_back(print("a depth unit of %.6g m leaves %.0f depth values", unit, std::max(0.0, values)) +
-                       print(" between camera.near %.6g and camera.far %.6g m", scene.nearZ, scene.farZ));
+        dead.push_back(
+            printed("a depth unit of %.6g m leaves %.0f depth values", unit, std::max(0.0, values)) +
+            printed(" between camera.near %.6g and camera.far %.6g m", scene.nearZ, scene.farZ));
     }
     return dead;
 }

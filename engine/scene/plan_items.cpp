@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/plan_items.h"
 
-#include <cstdio>
+#include "engine/types/printed.h"
 
 namespace fathom {
 
 namespace {
 
 std::string millimetres(double metres) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g mm", 1e3 * metres);
-    return text;
+    return printed("%.4g mm", 1e3 * metres);
 }
 
 std::string budgetSentence(const Plan& plan, const Scene& scene) {
