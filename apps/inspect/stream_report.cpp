@@ -4,6 +4,7 @@
 #include "devices/bag/cloud_message.h"
 #include "engine/types/error.h"
 #include "engine/types/median.h"
+#include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/printed.h"
 
@@ -43,9 +44,7 @@ std::map<size_t, ImageStream> imagesOf(MessageFile& file, const std::string& inf
 }
 
 std::string imageText(const ImageStream& image) {
-    const std::string size = image.width == 0
-                                 ? "size not readable"
-                                 : std::to_string(image.width) + "x" + std::to_string(image.height);
+    const std::string size = image.width == 0 ? "size not readable" : sizeText(image.width, image.height);
     return size + " " + image.encoding + ", frame '" + image.frame + "', lens: " +
            (image.lens ? lensText(*image.lens) + (image.rectified ? ", rectified" : "") : image.noLens);
 }
@@ -85,9 +84,9 @@ Rate Rate::of(const std::vector<MessageEntry>& messages) {
 }
 
 std::string lensText(const Intrinsics& lens) {
-    std::string text = std::to_string(lens.width) + "x" + std::to_string(lens.height) +
-                       printed(", fx %.5g", lens.fx) + printed(" fy %.5g", lens.fy) +
-                       printed(" cx %.5g", lens.cx) + printed(" cy %.5g", lens.cy);
+    std::string text = sizeText(lens.width, lens.height) + printed(", fx %.5g", lens.fx) +
+                       printed(" fy %.5g", lens.fy) + printed(" cx %.5g", lens.cx) +
+                       printed(" cy %.5g", lens.cy);
     if (lens.fan) {
         return text + ", a fan of beams";
     }

@@ -2,6 +2,7 @@
 #include "apps/operate/video_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <cerrno>
 #include <cstdlib>
@@ -22,10 +23,6 @@ namespace fathom::operate {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string sizeText(int width, int height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
 
 std::vector<std::string> encoderArguments(const fs::path& encoder, const fs::path& file,
                                           const std::string& size) {

@@ -9,6 +9,7 @@
 #include "engine/gpu/device.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -34,7 +35,7 @@ DeviceFacts factsFor(const Scene& scene, const GlobalOptions& global) {
 }
 
 std::string sizeOf(const CameraInfo& camera) {
-    const std::string size = std::to_string(camera.depth.width) + "x" + std::to_string(camera.depth.height);
+    const std::string size = sizeText(camera.depth.width, camera.depth.height);
     return size + (camera.decimation > 1 ? ", decimation " + std::to_string(camera.decimation) : "");
 }
 

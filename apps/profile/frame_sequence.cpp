@@ -6,6 +6,7 @@
 #include "engine/run/open_scene.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 
@@ -104,7 +105,7 @@ FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frame
 }
 
 FrameSequence wallFrame(uint32_t width, uint32_t height, double share, WallNoise noise) {
-    FrameSequence source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
+    FrameSequence source{sizeText(width, height), {}, {}};
     Intrinsics& lens = source.camera.depth;
     lens.width = width;
     lens.height = height;

@@ -4,6 +4,7 @@
 // YUYV, as from USB cameras, except in rows that name a format.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 
@@ -208,8 +209,8 @@ void answeredByDevice(ScalingRun& run, bool quick) {
 Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve shares;
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
-        shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
-                                  digits(share * 100.0) + " %", Grows::SharePercent, share * 100.0,
+        shares.push_back(run.take("forbidden share of " + sizeText(w, h), digits(share * 100.0) + " %",
+                                  Grows::SharePercent, share * 100.0,
                                   inYuyv(wallFrame(w, h, share, WallNoise::Sensor)), 2));
     }
     return shares;
@@ -260,7 +261,7 @@ Study scalingStudy(const StudyContext& context) {
     study.moreNames = kColumns;
     const bool quick = context.settings.quick;
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
-    const std::string size = std::to_string(w) + "x" + std::to_string(h);
+    const std::string size = sizeText(w, h);
     ScalingRun run(context, study);
     const Curve sizes = sizesOf(run, WallNoise::Sensor, quick), smooth = sizesOf(run, WallNoise::None, quick),
                 shares = sharesOf(run, w, h, quick), classes = classesOf(run, w, h, quick);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/tune_words.h"
 
+#include "engine/types/number_text.h"
 #include "engine/types/printed.h"
 
 #include <algorithm>
@@ -30,8 +31,7 @@ std::string advantages(const std::vector<Score>& scores, const std::vector<size_
 } // namespace
 
 std::string valueIn(const TunePoint& point, Vary vary) {
-    return vary == Vary::Size ? std::to_string(point.width) + "x" + std::to_string(point.height)
-                              : valueOf(point.setting, vary);
+    return vary == Vary::Size ? sizeText(point.width, point.height) : valueOf(point.setting, vary);
 }
 
 std::string settingNameOf(const TunePoint& point) {

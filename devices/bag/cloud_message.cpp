@@ -4,6 +4,7 @@
 #include "devices/bag/ros_messages.h"
 #include "devices/pcd/colour_fields.h"
 #include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <string_view>
@@ -43,7 +44,7 @@ std::vector<PcdField> Cloud::insideFields() const {
 }
 
 std::string Cloud::words() const {
-    std::string text = std::to_string(width) + "x" + std::to_string(height) + " points of";
+    std::string text = sizeText(width, height) + " points of";
     for (const PcdField& field : fields) {
         text += ' ';
         text += field.name.substr(0, 40);
@@ -84,14 +85,12 @@ Cloud cloud(MessageCursor cursor) {
 
 std::string whyNoDepth(const Cloud& cloud) {
     if (cloud.height < 2 || cloud.width < 2) {
-        return "a cloud that is not organised: " + std::to_string(cloud.width) + "x" +
-               std::to_string(cloud.height) +
+        return "a cloud that is not organised: " + sizeText(cloud.width, cloud.height) +
                " points (allowed: rows and columns of a depth image; record its depth images, or the cloud "
                "before it is filtered)";
     }
     if (cloud.width > kMaxImageWidth || cloud.height > kMaxImageHeight) {
-        return "a cloud of " + std::to_string(cloud.width) + "x" + std::to_string(cloud.height) +
-               " points (allowed: at most 3840x2160)";
+        return "a cloud of " + sizeText(cloud.width, cloud.height) + " points (allowed: at most 3840x2160)";
     }
     for (const char* name : {"x", "y", "z"}) {
         const PcdField* field = fieldNamed(cloud.fields, name);

@@ -18,10 +18,6 @@ constexpr const char* kImageType = "sensor_msgs/Image";
 constexpr const char* kInfoType = "sensor_msgs/CameraInfo";
 constexpr const char* kCompressedType = "sensor_msgs/CompressedImage";
 
-std::string streamSize(uint32_t width, uint32_t height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
-
 // The camera_info of the camera, or the one that is asked for: that is depth's, and of others only without
 // one of their own. Null = none, for the reason in stream.noLens.
 const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, ImageStream& stream) {
@@ -100,9 +96,9 @@ std::string whyUnsized(const Intrinsics& lens, const ImageStream& stream) {
     const auto twice = [](double middle) { return 2 * static_cast<uint32_t>(std::lround(middle + 0.25)); };
     const glm::dvec2 middle = middleOf(stream);
     return "width, height: 0, with the principal point " + point(lens.cx, lens.cy) +
-           (inside ? ", as in the middle of images of " + streamSize(twice(lens.cx), twice(lens.cy)) : "") +
+           (inside ? ", as in the middle of images of " + sizeText(twice(lens.cx), twice(lens.cy)) : "") +
            " (allowed: the size of the images of " + stream.name + ", " +
-           streamSize(stream.width, stream.height) + ", whose middle is " + point(middle.x, middle.y) +
+           sizeText(stream.width, stream.height) + ", whose middle is " + point(middle.x, middle.y) +
            "; or intrinsics=FILE after the file name)";
 }
 
@@ -112,11 +108,11 @@ std::string whyNotLens(const Intrinsics& lens, const ImageStream& stream) {
         return whyUnsized(lens, stream);
     }
     if (lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
-        return streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
+        return sizeText(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
     }
     if (stream.width != lens.width || stream.height != lens.height) {
-        return streamSize(lens.width, lens.height) + " where the images of " + stream.name + " have " +
-               streamSize(stream.width, stream.height) +
+        return sizeText(lens.width, lens.height) + " where the images of " + stream.name + " have " +
+               sizeText(stream.width, stream.height) +
                " (allowed: the images' size, binning and region of interest applied)";
     }
     return lens.invertible() ? ""

@@ -4,6 +4,7 @@
 #include "devices/bag/ros_messages.h"
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 
@@ -17,10 +18,6 @@ constexpr const char* kBrownConrady = "CALIBRATION_LensDistortionModelBrownConra
 constexpr size_t kParameters = 14;
 constexpr size_t kMaxCameras = 16;
 constexpr uint32_t kDepthSensor = 1024, kMaxSensor = 65535; // [pixels]
-
-std::string sizeOfImage(uint32_t width, uint32_t height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
 
 JsonField cameraAt(const nlohmann::json& cameras, const std::string& file, const char* location) {
     for (size_t i = 0; i < std::min(kMaxCameras, cameras.size()); ++i) {
@@ -106,15 +103,14 @@ Intrinsics KinectCalibration::depth(uint32_t width, uint32_t height) const {
                                           {512, 512, {512, 512, 0, 0}},
                                           {1024, 1024, {1024, 1024, 0, 0}}}};
     if (depth_.width != kDepthSensor || depth_.height != kDepthSensor) {
-        throw Error("a depth sensor of " + sizeOfImage(depth_.width, depth_.height) +
-                    " (allowed: 1024x1024)");
+        throw Error("a depth sensor of " + sizeText(depth_.width, depth_.height) + " (allowed: 1024x1024)");
     }
     for (const Mode& mode : kModes) {
         if (mode.width == width && mode.height == height) {
             return lensOf(depth_, mode.window, width, height);
         }
     }
-    throw Error(sizeOfImage(width, height) +
+    throw Error(sizeText(width, height) +
                 ", which no depth mode has (allowed: 640x576, 320x288, 512x512, 1024x1024)");
 }
 
@@ -124,12 +120,12 @@ Intrinsics KinectCalibration::colour(uint32_t width, uint32_t height) const {
         sensor.parameters[1] = sensor.parameters[1] * 3 / 4 + 1.0 / 8;
         sensor.parameters[3] = sensor.parameters[3] * 3 / 4;
     } else if (uint64_t{sensor.width} * 3 != uint64_t{sensor.height} * 4) {
-        throw Error("a colour sensor of " + sizeOfImage(sensor.width, sensor.height) +
+        throw Error("a colour sensor of " + sizeText(sensor.width, sensor.height) +
                     " (allowed: 4:3 or 16:9)");
     }
     const bool wide = uint64_t{width} * 9 == uint64_t{height} * 16;
     if (!wide && uint64_t{width} * 3 != uint64_t{height} * 4) {
-        throw Error(sizeOfImage(width, height) + ", which no colour mode has (allowed: 16:9 or 4:3)");
+        throw Error(sizeText(width, height) + ", which no colour mode has (allowed: 16:9 or 4:3)");
     }
     const uint32_t binnedHeight = wide ? width * 3 / 4 : height;
     return lensOf(sensor, {width, binnedHeight, 0, (binnedHeight - height) / 2}, width, height);

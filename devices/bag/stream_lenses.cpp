@@ -5,20 +5,13 @@
 #include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
 namespace fathom {
-
-namespace {
-
-std::string sizeText(uint32_t width, uint32_t height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
-
-} // namespace
 
 // Whether the recording relates depth and colour: a file of one lens alone says nothing about it.
 bool StreamChooser::keepsRelation() const {

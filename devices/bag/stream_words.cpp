@@ -4,6 +4,7 @@
 
 #include "devices/bag/topic_words.h"
 #include "devices/recorded/lens_model.h"
+#include "engine/types/number_text.h"
 #include "engine/types/printed.h"
 
 #include <algorithm>
@@ -23,8 +24,7 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
     for (const ImageStream* stream : {&choice.depth, choice.colour ? &*choice.colour : nullptr}) {
         if (stream != nullptr && stream->unsized && options_.intrinsics.empty()) {
             words += ", " + file_.topics()[*stream->info].name +
-                     " without width and height (taken: " + std::to_string(stream->width) + "x" +
-                     std::to_string(stream->height) + ")";
+                     " without width and height (taken: " + sizeText(stream->width, stream->height) + ")";
         }
     }
     std::string rest;

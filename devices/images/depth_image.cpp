@@ -5,6 +5,7 @@
 #include "devices/images/npy_image.h"
 #include "devices/images/pgm_image.h"
 #include "devices/images/tiff_image.h"
+#include "engine/types/number_text.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
@@ -64,8 +65,8 @@ std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& f
         return head.fault;
     }
     if (head.size != size) {
-        return std::to_string(head.size.width) + "x" + std::to_string(head.size.height) + " pixels, not " +
-               std::to_string(size.width) + "x" + std::to_string(size.height);
+        return sizeText(head.size.width, head.size.height) + " pixels, not " +
+               sizeText(size.width, size.height);
     }
     return head.metres == metres ? ""
            : metres              ? "16-bit values, not metres as in the first depth image"

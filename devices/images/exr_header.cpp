@@ -4,6 +4,7 @@
 #include "devices/bag/byte_cursor.h"
 #include "devices/images/exr_channel.h"
 #include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <map>
@@ -89,8 +90,7 @@ void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHeader& head) {
     }
     const int64_t width = int64_t{data.right} - data.left + 1, height = int64_t{data.bottom} - data.top + 1;
     if (width < 1 || height < 1 || width > kMaxImageWidth || height > kMaxImageHeight) {
-        throw Error("EXR: " + std::to_string(width) + "x" + std::to_string(height) +
-                    " pixels (allowed: at most 3840x2160)");
+        throw Error("EXR: " + sizeText(width, height) + " pixels (allowed: at most 3840x2160)");
     }
     head.width = static_cast<uint32_t>(width);
     head.height = static_cast<uint32_t>(height);

@@ -2,6 +2,7 @@
 #include "devices/images/tiff_image.h"
 
 #include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <array>
@@ -111,8 +112,8 @@ DepthHeader headOf(TIFF* tiff) {
     const bool values = head.metres ? bits == 32 || bits == 64 : format == SAMPLEFORMAT_UINT && bits == 16;
     if (head.size.width < 1 || head.size.height < 1 || head.size.width > kMaxImageWidth ||
         head.size.height > kMaxImageHeight) {
-        head.fault = "TIFF: " + std::to_string(head.size.width) + "x" + std::to_string(head.size.height) +
-                     " pixels (allowed: at most 3840x2160)";
+        head.fault =
+            "TIFF: " + sizeText(head.size.width, head.size.height) + " pixels (allowed: at most 3840x2160)";
     } else if (channels != 1) {
         head.fault = tiffFault("SamplesPerPixel", channels, "1");
     } else if (!values) {

@@ -6,6 +6,7 @@
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 #include "engine/types/stand_in.h"
 
 #include <chrono>
@@ -162,10 +163,8 @@ void OpenNi2Camera::readLens(const std::filesystem::path& intrinsics) {
     if (!intrinsics.empty()) {
         const Intrinsics lens = readIntrinsics(intrinsics).camera.depth;
         if (lens.width != info_.depth.width || lens.height != info_.depth.height) {
-            throw BadInput(intrinsics.string(), "width, height",
-                           std::to_string(lens.width) + "x" + std::to_string(lens.height),
-                           "the image's " + std::to_string(info_.depth.width) + "x" +
-                               std::to_string(info_.depth.height));
+            throw BadInput(intrinsics.string(), "width, height", sizeText(lens.width, lens.height),
+                           "the image's " + sizeText(info_.depth.width, info_.depth.height));
         }
         info_.depth = info_.colour = lens;
         return;

@@ -4,6 +4,7 @@
 #include "devices/pcd/colour_levels.h"
 #include "devices/pcd/ply_values.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -158,9 +159,8 @@ private:
         }
         if (head_.width < 2 || head_.height < 2 || head_.width > kPlyWidth || head_.height > kPlyHeight) {
             values_.refuse("num_cols, num_rows",
-                           head_.width == 0 && head_.height == 0
-                               ? "missing"
-                               : std::to_string(head_.width) + "x" + std::to_string(head_.height),
+                           head_.width == 0 && head_.height == 0 ? "missing"
+                                                                 : sizeText(head_.width, head_.height),
                            "an organised cloud of 2x2 to 3840x2160 points, its size stated in the header: "
                            "obj_info num_cols W, obj_info num_rows H");
         }

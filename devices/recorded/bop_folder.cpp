@@ -9,6 +9,7 @@
 #include "devices/recorded/numbered_images.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <map>
@@ -61,8 +62,7 @@ RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::strin
         throw BadInput(file, image.key + ".cam_K", fault, std::string("row by row, ") + kLensRows);
     }
     if (size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight) {
-        throw BadInput(file, image.key + ".cam_K",
-                       "for images of " + std::to_string(size.width) + "x" + std::to_string(size.height),
+        throw BadInput(file, image.key + ".cam_K", "for images of " + sizeText(size.width, size.height),
                        "images of at most 3840x2160");
     }
     CameraInfo& camera = intrinsics.camera;

@@ -95,8 +95,7 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
     }
     if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight) {
         throw BadInput(file.string(), "matrix",
-                       size ? "for images of " + std::to_string(size->width) + "x" +
-                                  std::to_string(size->height)
+                       size ? "for images of " + sizeText(size->width, size->height)
                             : "for images of unknown size",
                        "images of at most 3840x2160 that are read");
     }

@@ -2,6 +2,7 @@
 #include "devices/recorded/png_image.h"
 
 #include "engine/types/input_files.h"
+#include "engine/types/number_text.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -129,16 +130,15 @@ std::vector<png_bytep> rowPointers(PngSize size, std::span<Pixel> target) {
     return rows;
 }
 
-std::string words(PngSize size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 // Returns why the image does not match the request; empty = it matches.
 std::string checkHeader(const PngReader& png, PngSize size) {
     if (!png.fault().empty()) {
         return png.fault();
     }
-    return png.size() == size ? "" : words(png.size()) + " pixels, not " + words(size);
+    const PngSize got = png.size();
+    return got == size
+               ? ""
+               : sizeText(got.width, got.height) + " pixels, not " + sizeText(size.width, size.height);
 }
 
 std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) {

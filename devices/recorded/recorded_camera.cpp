@@ -39,10 +39,6 @@ PngSize sizeOf(const Intrinsics& lens) {
     return {lens.width, lens.height};
 }
 
-std::string sizeWords(PngSize size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
 } // namespace
 
 RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& options)
@@ -134,9 +130,9 @@ void RecordedCamera::takeColourFormat() {
         const std::string& file = layout_.intrinsics.file; // empty: a lens that is known
         throw BadInput(
             folder_.string() + (file.empty() ? "" : ": " + file), "color.width, color.height",
-            "colour images of " + sizeWords(*other) + " where " +
-                (file.empty() ? "the usual lens of this layout has " + sizeWords(wanted)
-                              : sizeWords(wanted) + " is stated"),
+            "colour images of " + sizeText(other->width, other->height) + " where " +
+                (file.empty() ? "the usual lens of this layout has " + sizeText(wanted.width, wanted.height)
+                              : sizeText(wanted.width, wanted.height) + " is stated"),
             "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf, in the "
             "layout's file or in intrinsics=FILE after the folder name");
     }

@@ -2,6 +2,7 @@
 #include "devices/v4l2/video_node.h"
 
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -49,7 +50,7 @@ std::string fourccName(uint32_t fourcc) {
 }
 
 std::string sizeName(VideoSize size) {
-    return std::to_string(size.width) + "x" + std::to_string(size.height);
+    return sizeText(size.width, size.height);
 }
 
 VideoNode::VideoNode(const fs::path& file)

@@ -67,7 +67,7 @@ v0::State external(StepState state) noexcept {
 }
 
 Intrinsics internal(const v0::Intrinsics& lens, const std::string& place, const char* field) {
-    const std::string size = std::to_string(lens.width) + "x" + std::to_string(lens.height);
+    const std::string size = sizeText(lens.width, lens.height);
     if (lens.width == 0 || lens.height == 0) {
         throw BadInput(place, field, size, "a width and a height above 0");
     }

@@ -5,6 +5,7 @@
 #include "engine/scene/plan_items.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
@@ -138,8 +139,7 @@ void checkSize(const Plan& plan, const Scene& scene, const CameraInfo& camera, c
     }
     every *= scene.decimation;
     throw BadInput(
-        "camera", "image size",
-        std::to_string(camera.depth.width) + "x" + std::to_string(camera.depth.height),
+        "camera", "image size", sizeText(camera.depth.width, camera.depth.height),
         "at most " + std::to_string(most) + " pixels in squares of 16x16 on " + device.name +
             (every > kMaxDecimation ? "" : ", for example with camera.decimation: " + std::to_string(every)));
 }
@@ -160,8 +160,7 @@ double leaksFrom(const Intrinsics& lens, double radius) noexcept {
 
 PatchLayout patchLayout(uint32_t width, uint32_t height) {
     if (width == 0 || height == 0 || width > kMaxWidth || height > kMaxHeight) {
-        throw BadInput("camera", "image size", std::to_string(width) + "x" + std::to_string(height),
-                       "1x1 to 3840x2160");
+        throw BadInput("camera", "image size", sizeText(width, height), "1x1 to 3840x2160");
     }
     PatchLayout layout;
     layout.across = (width + 15) / 16;

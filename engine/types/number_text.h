@@ -2,6 +2,7 @@
 // Numbers and names in messages and files.
 #pragma once
 
+#include <concepts>
 #include <cstdio>
 #include <string>
 #include <string_view>
@@ -13,6 +14,11 @@ inline std::string significant(double value, int digits) {
     char text[40];
     std::snprintf(text, sizeof text, "%.*g", digits, value);
     return text;
+}
+
+// "640x480"
+inline std::string sizeText(std::integral auto width, std::integral auto height) {
+    return std::to_string(width) + "x" + std::to_string(height);
 }
 
 // In double quotes, with escapes that YAML and JSON share.
