@@ -64,7 +64,7 @@ SceneEdit readEdit(const std::filesystem::path& file, const TextLine& line) {
 } // namespace
 
 bool isSpare(const FixtureClass& fixture) {
-    return fixture.isPoints() && (fixture.name.empty() || fixture.name.rfind(kSpareName, 0) == 0);
+    return fixture.isPoints() && (fixture.name.empty() || fixture.name.starts_with(kSpareName));
 }
 
 std::string spareName(size_t row) {

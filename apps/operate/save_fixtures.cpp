@@ -103,7 +103,7 @@ std::string withBlock(const std::string& old, const std::string& key, const std:
     std::string result, after, line;
     bool inside = false, done = false;
     while (std::getline(in, line)) {
-        const bool begins = line.rfind(key, 0) == 0, content = hasContent(line);
+        const bool begins = line.starts_with(key), content = hasContent(line);
         inside =
             begins || (inside && (!content || std::string_view(" -]}").find(line[0]) != std::string::npos));
         done = done || begins;

@@ -53,8 +53,7 @@ bool isFixtureFile(const std::filesystem::path& file) {
 bool isFaultFile(const std::filesystem::path& file) {
     constexpr std::string_view kStart = "fault-";
     const std::string stem = file.stem().string();
-    return file.extension() == ".csv" && stem.size() > kStart.size() &&
-           stem.compare(0, kStart.size(), kStart) == 0 &&
+    return file.extension() == ".csv" && stem.size() > kStart.size() && stem.starts_with(kStart) &&
            stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos &&
            beginsWith(file, kFaultsStart);
 }

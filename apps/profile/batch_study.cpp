@@ -154,7 +154,7 @@ PlotPanel batchPanel(const Study& study) {
     panel.yLabel = "submission to result p50 [ms]";
     std::vector<std::string> names;
     for (const StudyRow& row : study.rows) {
-        const bool gpu = row.setting.rfind(kGpuBatch, 0) == 0;
+        const bool gpu = row.setting.starts_with(kGpuBatch);
         const std::string leaves = digits(row.more[kBatchLeaves], 5) + " leaves, " + row.source;
         const std::string name = std::string(gpu ? kGpuBatch : kCpuBatch) + ", " + leaves;
         auto found = std::find(names.begin(), names.end(), name);

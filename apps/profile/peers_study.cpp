@@ -12,15 +12,15 @@ namespace fathom::profile {
 namespace {
 
 bool isOurs(const StudyRow& row) {
-    return row.setting.rfind("Fathom", 0) == 0;
+    return row.setting.starts_with("Fathom");
 }
 
 bool isFilter(const StudyRow& row) {
-    return row.source.rfind("filter ", 0) == 0;
+    return row.source.starts_with("filter ");
 }
 
 bool isContact(const StudyRow& row) {
-    return row.source.rfind(kContactPrefix, 0) == 0;
+    return row.source.starts_with(kContactPrefix);
 }
 
 std::vector<std::string> sourcesOf(const Study& study) {

@@ -38,7 +38,7 @@ void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, St
 // A panel of the sources whose names start with `source`.
 PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
     return frontPanel(study, title, [&](const StudyRow& row) {
-        return row.source.rfind(source, 0) == 0 ? study.rankBy.time(row) : NAN;
+        return row.source.starts_with(source) ? study.rankBy.time(row) : NAN;
     });
 }
 

@@ -28,7 +28,7 @@ inline constexpr const char* kCpuWay = "CPU";
 inline constexpr const char* kGpuWay = "GPU";
 inline constexpr const char* kBruteWay = "brute force";
 inline bool isWay(const StudyRow& row, const char* way) {
-    return row.setting.rfind(way, 0) == 0;
+    return row.setting.starts_with(way);
 }
 // p50 [ms] of the cull alone, submission to result, by the row's method.
 double cullTime(const StudyRow& row);

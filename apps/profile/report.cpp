@@ -29,7 +29,7 @@ constexpr const char* kBuild = "build without optimisation: the times below are 
 std::string firstMatch(const std::string& file, const std::string& key) {
     std::ifstream in(file);
     for (std::string line; std::getline(in, line);) {
-        if (line.rfind(key, 0) == 0) {
+        if (line.starts_with(key)) {
             const size_t at = line.find_first_not_of(" \t:", key.size());
             return at == std::string::npos ? "" : line.substr(at);
         }

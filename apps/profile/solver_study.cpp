@@ -201,7 +201,7 @@ Study solverStudy(const StudyContext& context) {
     markFront(study);
     const auto timeIf = [&study](bool reduced) {
         return [&study, reduced](const StudyRow& row) {
-            return (row.source.rfind(kReduced, 0) == 0) == reduced ? study.rankBy.time(row) : NAN;
+            return row.source.starts_with(kReduced) == reduced ? study.rankBy.time(row) : NAN;
         };
     };
     study.panels.push_back(frontPanel(study, "pose error", timeIf(false)));

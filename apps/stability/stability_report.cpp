@@ -25,7 +25,7 @@ Json number(double value) {
 std::string cpuName() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {
-        if (line.rfind("model name", 0) == 0 && line.find(": ") != std::string::npos) {
+        if (line.starts_with("model name") && line.find(": ") != std::string::npos) {
             return line.substr(line.find(": ") + 2);
         }
     }

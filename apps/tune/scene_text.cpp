@@ -236,7 +236,7 @@ std::string withoutComments(const std::string& text) {
     std::istringstream lines(text);
     std::string out, line;
     while (std::getline(lines, line)) {
-        out += line.rfind(kMark, 0) == 0 ? "" : line + "\n";
+        out += line.starts_with(kMark) ? "" : line + "\n";
     }
     return out;
 }

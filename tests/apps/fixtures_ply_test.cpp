@@ -49,7 +49,7 @@ TEST_CASE(
         const std::string end = "end_header\n";
         const size_t body = text.find(end) + end.size();
         const std::string header = text.substr(0, body);
-        CHECK(header.rfind("ply\nformat binary_little_endian 1.0\n", 0) == 0);
+        CHECK(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
         CHECK(header.find(
                   "element vertex " + std::to_string(count) +
                   "\nproperty double x\nproperty double y\n"

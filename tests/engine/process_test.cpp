@@ -31,7 +31,7 @@ std::map<std::string, unsigned long long> blockedByThread() {
         std::getline(names, line);
         const bool ours = line == program;
         while (ours && std::getline(status, line)) {
-            if (line.rfind("SigBlk:", 0) == 0) {
+            if (line.starts_with("SigBlk:")) {
                 masks[thread.path().filename()] = std::stoull(line.substr(7), nullptr, 16);
             }
         }

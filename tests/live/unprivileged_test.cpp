@@ -26,7 +26,7 @@ TEST_CASE("Without permission for priority and locked memory a live run reports 
     for (const char* part :
          {"haptic thread: the system refused ", "real-time priority (Operation not permitted)",
           "locked memory (Cannot allocate memory)", "man fathom, PERMISSIONS"}) {
-        const bool silent = kSanitized && std::string(part).rfind("locked", 0) == 0; // then nothing is locked
+        const bool silent = kSanitized && std::string(part).starts_with("locked"); // then nothing is locked
         CHECK((run.err.find(part) != std::string::npos || silent));
     }
     CHECK(readReplay(stage / "out", run).ticks.size() > 100);

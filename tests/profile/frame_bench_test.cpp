@@ -31,7 +31,7 @@ TEST_CASE("A frame equals its twins over all and over few patches, and a wrong d
         SampleFrame wrong = image; // the corners are always compared
         wrong.depth[pixel] = static_cast<uint16_t>(wrong.depth[pixel] + 40);
         CAPTURE(pixel);
-        CHECK(rig.bench.differsFromTwins(wrong, 1).rfind("point of pixel ", 0) == 0);
+        CHECK(rig.bench.differsFromTwins(wrong, 1).starts_with("point of pixel "));
     }
     size_t found = 0;
     for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel per patch; 5 patches requested, plus 4 corners
@@ -73,10 +73,10 @@ TEST_CASE("Colour of a second camera is looked up through occlusion cells, and b
     CHECK(bench.differsFromTwins(image).empty());
     SampleFrame near = image; // gives a smaller cell depth
     near.depth[60 * 160 + 80] = static_cast<uint16_t>(near.depth[60 * 160 + 80] / 2);
-    CHECK(bench.differsFromTwins(near).rfind("occlusion cell ", 0) == 0);
+    CHECK(bench.differsFromTwins(near).starts_with("occlusion cell "));
     SampleFrame grey = image; // no pixel has its class any more
     std::fill(grey.colour.begin(), grey.colour.end(), 0xff808080u);
-    CHECK(bench.differsFromTwins(grey).rfind("class bits of pixel ", 0) == 0);
+    CHECK(bench.differsFromTwins(grey).starts_with("class bits of pixel "));
 }
 
 TEST_CASE(

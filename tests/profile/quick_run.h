@@ -52,7 +52,7 @@ inline std::vector<std::vector<std::string>> tableOf(const std::filesystem::path
 }
 
 inline bool startsWith(const std::string& text, const std::string& head) {
-    return text.compare(0, head.size(), head) == 0;
+    return text.starts_with(head);
 }
 
 } // namespace fathom::testing

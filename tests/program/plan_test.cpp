@@ -51,7 +51,7 @@ std::map<std::string, Item> planOf(const Stage& stage) {
 void checkRunsThat(const Stage& stage, const std::map<std::string, Item>& plan) {
     std::set<std::string> planned{"upload_ms", "publish_ms", "answerable_ms"};
     for (const auto& [name, item] : plan) {
-        if (item.in && name.rfind("pass ", 0) == 0 && name != "pass tree_query") {
+        if (item.in && name.starts_with("pass ") && name != "pass tree_query") {
             planned.insert(name.substr(5) + "_ms");
         }
     }
@@ -127,7 +127,7 @@ TEST_CASE("Guidance alone needs no spheres, tree or query; shapes alone need no 
     const auto shapes = planOf(stage);
     for (const auto& row : shapes) {
         CAPTURE(row.first);
-        CHECK((row.first.rfind("thread", 0) == 0 || !row.second.in));
+        CHECK((row.first.starts_with("thread") || !row.second.in));
     }
     checkRunsThat(stage, shapes);
 }

@@ -9,7 +9,7 @@ TEST_CASE("stability lists its cases without an output folder, and requires the 
     const ProgramRun list = runFathom({"stability", "--list", "stiff", "solver-needle"});
     CAPTURE(list.err);
     CHECK(list.exitCode == 0);
-    CHECK(list.out.rfind("solver    solver-needle\nstiff     ", 0) == 0);
+    CHECK(list.out.starts_with("solver    solver-needle\nstiff     "));
     CHECK(list.out.find("feel") == std::string::npos);
     const ProgramRun run = runFathom({"stability", "solver-needle"});
     CHECK(run.exitCode == 2);

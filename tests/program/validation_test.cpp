@@ -47,10 +47,10 @@ TEST_CASE("A message of the Vulkan layers is printed and fails a run that is oth
     CAPTURE(run.err);
     CHECK(run.exitCode == 1);
     CHECK(run.errorLines().size() > 1);
-    CHECK(run.err.rfind("error: Vulkan validation: ", 0) == 0);
+    CHECK(run.err.starts_with("error: Vulkan validation: "));
     const auto lines = run.errorLines();
     const auto messages = std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
-        return line.rfind("error: Vulkan validation: ", 0) == 0;
+        return line.starts_with("error: Vulkan validation: ");
     });
     CHECK(lines.back() == "fathom: " + std::to_string(messages) + " Vulkan validation messages");
     CHECK(std::filesystem::exists(stage / "out" / "summary.json"));

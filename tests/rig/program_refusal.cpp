@@ -12,7 +12,7 @@ void checkRefusal(const std::vector<std::string>& arguments, const std::vector<s
     CHECK(run.exitCode == exitCode);
     CHECK(run.out == "");
     CHECK(run.errorLines().size() == 1);
-    CHECK(run.err.rfind("fathom: ", 0) == 0);
+    CHECK(run.err.starts_with("fathom: "));
     for (const std::string& part : parts) {
         CAPTURE(part);
         CHECK(run.err.find(part) != std::string::npos);

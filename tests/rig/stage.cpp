@@ -272,7 +272,7 @@ Replay Stage::replay(const std::vector<std::string>& more, const Terms& terms, c
         CHECK(run.err == "");
     } else {
         REQUIRE(run.errorLines().size() == 1);
-        CHECK(run.err.rfind("warning: " + warning, 0) == 0);
+        CHECK(run.err.starts_with("warning: " + warning));
     }
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     const Replay replay = readReplay(*this / out, run);

@@ -33,7 +33,7 @@ double age = -1.0; // [s] of the next message; negative: a stamp of long ago, on
 // Takes the age from the line.
 std::string takeAge(const std::string& line) {
     const std::string word = "age=";
-    const bool given = line.rfind(word, 0) == 0;
+    const bool given = line.starts_with(word);
     age = given ? std::strtod(line.c_str() + word.size(), nullptr) : -1.0;
     return given ? line.substr(std::min(line.size(), line.find(' ') + 1)) : line;
 }
