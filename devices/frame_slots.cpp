@@ -61,9 +61,8 @@ FrameSlot& FrameSlots::acquireFor(const std::string& camera) {
 }
 
 size_t FrameSlots::inFlight() const noexcept {
-    return static_cast<size_t>(std::count_if(slots_.begin(), slots_.end(), [](const auto& slot) {
-        return slot->taken_.load(std::memory_order_relaxed);
-    }));
+    return static_cast<size_t>(std::ranges::count_if(
+        slots_, [](const auto& slot) { return slot->taken_.load(std::memory_order_relaxed); }));
 }
 
 } // namespace fathom

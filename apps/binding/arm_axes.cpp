@@ -37,7 +37,7 @@ std::span<const char* const> namesOf(Driver::Protocol protocol) noexcept {
 
 size_t axisNamed(const Scene& scene, size_t row, const Driver& driver) {
     const auto all = namesOf(driver.protocol), names = all.first(all.size() - 1); // without the jaws
-    const auto found = std::find(names.begin(), names.end(), driver.axes[row].axis);
+    const auto found = std::ranges::find(names, driver.axes[row].axis);
     if (found == names.end()) {
         refuse(scene, row, "axis", driver.axes[row].axis, joined(names));
     }
@@ -47,8 +47,7 @@ size_t axisNamed(const Scene& scene, size_t row, const Driver& driver) {
 size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const ArmSetup& setup) {
     const std::vector<ArmJoint>& joints = setup.model.joints;
     const std::string& name = driver.axes[row].joint;
-    const auto found =
-        std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
+    const auto found = std::ranges::find(joints, name, &ArmJoint::name);
     if (found == joints.end()) {
         refuse(scene, row, "joint", name, joined(joints, &ArmJoint::name));
     }

@@ -100,8 +100,7 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
 }
 
 const SceneEdit& SceneEdits::at(uint32_t image) const {
-    const auto after = std::upper_bound(edits_.begin(), edits_.end(), image,
-                                        [](uint32_t p, const SceneEdit& e) { return p < e.firstFrame; });
+    const auto after = std::ranges::upper_bound(edits_, image, {}, &SceneEdit::firstFrame);
     return *(after == edits_.begin() ? after : after - 1);
 }
 

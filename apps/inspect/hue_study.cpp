@@ -61,8 +61,7 @@ void HueStudy::write(std::ostream& out) const {
         << (all_ > 0 ? 100.0 * counted / static_cast<double>(all_) : 0.0)
         << " % of the pixels with saturation from " << std::setprecision(2) << kMinSaturation
         << " and lightness " << kDark << " to " << kBright << "\n";
-    const auto longest = std::max_element(bars_.begin(), bars_.end(),
-                                          [](const Bar& a, const Bar& b) { return a.count < b.count; });
+    const auto longest = std::ranges::max_element(bars_, {}, &Bar::count);
     for (size_t i = 0; i < kHues; ++i) {
         const Bar& bar = bars_[i];
         if (bar.count == 0 || static_cast<double>(bar.count) < kMinShare * counted) {

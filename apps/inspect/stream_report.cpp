@@ -72,13 +72,12 @@ Rate Rate::of(const std::vector<MessageEntry>& messages) {
     for (size_t i = 1; i < messages.size(); ++i) {
         gaps.push_back(seconds(messages[i - 1].time, messages[i].time));
     }
-    const auto longest = std::max_element(gaps.begin(), gaps.end());
+    const auto longest = std::ranges::max_element(gaps);
     rate.longestGap = *longest;
     rate.at = seconds(messages.front().time, messages[static_cast<size_t>(longest - gaps.begin())].time);
     std::vector<double> reordered = gaps;
     const double median = medianOf(reordered);
-    rate.gaps = static_cast<size_t>(
-        std::count_if(gaps.begin(), gaps.end(), [&](double g) { return g > 1.5 * median; }));
+    rate.gaps = static_cast<size_t>(std::ranges::count_if(gaps, [&](double g) { return g > 1.5 * median; }));
     rate.perSecond = static_cast<double>(gaps.size()) / seconds(messages.front().time, messages.back().time);
     return rate;
 }
@@ -112,9 +111,8 @@ void writeStreams(MessageFile& file, const std::string& infoTopic, std::ostream&
         name = std::max(name, printable(topics[i].name).size());
         type = std::max(type, printable(topics[i].type).size());
     }
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-        return topics[a].messages.size() > topics[b].messages.size();
-    });
+    std::ranges::stable_sort(
+        order, [&](size_t a, size_t b) { return topics[a].messages.size() > topics[b].messages.size(); });
     out << "streams\n  " << padded("topic", name) << padded("type", type) << padded("messages", 8)
         << padded("rate", 9) << "gaps: longest\n";
     const auto images = imagesOf(file, infoTopic, out);

@@ -41,8 +41,7 @@ bool Alarms::lasts(bool on, const std::string& key, double t, double after) {
 }
 
 void Alarms::set(bool on, Level level, const std::string& key, const Text& text, double t, Filter filter) {
-    const auto at =
-        std::find_if(alarms_.begin(), alarms_.end(), [&](const Alarm& a) { return a.key == key; });
+    const auto at = std::ranges::find(alarms_, key, &Alarm::key);
     const bool now = lasts(on, key, t, filter.after);
     if (at != alarms_.end()) {
         update(*at, now || (on && at->active), text, t, filter);
@@ -82,7 +81,7 @@ std::vector<const Alarm*> Alarms::shown() const {
     for (const Alarm& alarm : alarms_) {
         list.push_back(&alarm);
     }
-    std::stable_sort(list.begin(), list.end(), [](const Alarm* a, const Alarm* b) {
+    std::ranges::stable_sort(list, [](const Alarm* a, const Alarm* b) {
         return std::tuple(a->level, !a->acknowledged, a->active) >
                std::tuple(b->level, !b->acknowledged, b->active);
     });

@@ -25,8 +25,7 @@ dquat turnTo(const dvec3& n) {
 
 // Why no spare row is left for a new class of points.
 std::string noSpare(const std::vector<FixtureClass>& fixtures) {
-    const auto points =
-        std::count_if(fixtures.begin(), fixtures.end(), [](const FixtureClass& f) { return f.isPoints(); });
+    const auto points = std::ranges::count_if(fixtures, [](const FixtureClass& f) { return f.isPoints(); });
     return points >= shared::kMaxClasses
                ? "not added: at most " + std::to_string(shared::kMaxClasses) + " classes of points"
                : "not added: two new classes per run; save (Ctrl S) and open the scene again for more";
@@ -48,8 +47,7 @@ FixtureEditor::FixtureEditor(const Scene& scene,
 std::string FixtureEditor::freeName(const std::string& stem) const {
     for (int i = 1;; ++i) {
         const std::string name = stem + " " + std::to_string(i);
-        if (std::none_of(scene_.fixtures.begin(), scene_.fixtures.end(),
-                         [&](const auto& f) { return f.name == name; })) {
+        if (std::ranges::none_of(scene_.fixtures, [&](const auto& f) { return f.name == name; })) {
             return name;
         }
     }
@@ -60,12 +58,12 @@ std::string FixtureEditor::takePicked(Console& console) {
     const auto count = static_cast<int>(next.fixtures.size());
     const int row = console.pick.row;
     const auto spare = row >= 0 ? next.fixtures.begin() + std::min(row, count)
-                                : std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
+                                : std::ranges::find_if(next.fixtures, isSpare);
     if (row < 0) { // the name may be taken or empty by now
         const std::string wanted = console.pick.gates.name;
-        const bool free = wanted.find_first_not_of(' ') != std::string::npos &&
-                          std::none_of(next.fixtures.begin(), next.fixtures.end(),
-                                       [&](const FixtureClass& f) { return f.name == wanted; });
+        const bool free =
+            wanted.find_first_not_of(' ') != std::string::npos &&
+            std::ranges::none_of(next.fixtures, [&](const FixtureClass& f) { return f.name == wanted; });
         console.pick.gates.name = free ? wanted : freeName("picked");
     }
     std::string problem;
@@ -102,7 +100,7 @@ FixtureClass FixtureEditor::shapeAt(ShapeKind kind, const dvec3& base, const dve
 }
 
 std::string FixtureEditor::place(const FixtureClass& shape) {
-    const auto rows = std::count_if(scene_.fixtures.begin(), scene_.fixtures.end(), std::not_fn(isSpare));
+    const auto rows = std::ranges::count_if(scene_.fixtures, std::not_fn(isSpare));
     if (static_cast<size_t>(rows) >= Scene::kMaxFixtures) {
         return "not placed: at most " + std::to_string(Scene::kMaxFixtures) + " fixtures";
     }
@@ -122,8 +120,8 @@ std::string FixtureEditor::rename(size_t row, const std::string& name) {
     if (name == renamed.name) {
         return "";
     }
-    const bool taken = std::any_of(scene_.fixtures.begin(), scene_.fixtures.end(),
-                                   [&](const FixtureClass& f) { return f.name == name; });
+    const bool taken =
+        std::ranges::any_of(scene_.fixtures, [&](const FixtureClass& f) { return f.name == name; });
     renamed.name = name;
     if (name.find_first_not_of(' ') == std::string::npos || isSpare(renamed)) {
         return "not renamed: a name needs a letter or digit";

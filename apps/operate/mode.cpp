@@ -196,8 +196,7 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
     }
     if (record.guidance > 0.0 || switches.guidance) {
         const std::vector<GuidancePose>& targets = input.run.scene().set.guidance;
-        const bool any =
-            std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; });
+        const bool any = std::ranges::any_of(targets, [](const GuidancePose& g) { return g.present; });
         chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidanceWord,
                          "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }

@@ -24,9 +24,8 @@ void checkJob(const std::vector<std::string>& lines) {
         throw BadInput("operate", "--job", lines.back(), "at most two lines");
     }
     for (const std::string& line : lines) {
-        const bool plain = std::all_of(line.begin(), line.end(), [](char c) {
-            return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
-        });
+        const bool plain = std::ranges::all_of(
+            line, [](char c) { return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f; });
         if (line.empty() || line.size() > kLongest || !plain) {
             throw BadInput("operate", "--job", "'" + line.substr(0, kLongest) + "'",
                            "a line of 1 to 100 bytes without control characters");

@@ -57,8 +57,7 @@ TickLog ticksOf(const std::filesystem::path& folder, const std::optional<HandPat
         return mapped;
     }
     for (RecordedTick& recorded : log.ticks) {
-        const auto at = std::upper_bound(mapped.ticks.begin(), mapped.ticks.end(), recorded.t,
-                                         [](double t, const RecordedTick& m) { return t < m.t; });
+        const auto at = std::ranges::upper_bound(mapped.ticks, recorded.t, {}, &RecordedTick::t);
         recorded.device = (at == mapped.ticks.begin() ? at : at - 1)->device;
         recorded.tool.position = dvec3(std::numeric_limits<double>::quiet_NaN());
     }
@@ -252,10 +251,8 @@ void PlaybackRun::showMoment() {
     const double t = display_.console.timeLine.t;
     const auto& ticks = log_.ticks;
     const auto after = [&](double when) {
-        return static_cast<size_t>(
-            std::upper_bound(ticks.begin(), ticks.end(), when,
-                             [](double value, const RecordedTick& m) { return value < m.t; }) -
-            ticks.begin());
+        return static_cast<size_t>(std::ranges::upper_bound(ticks, when, {}, &RecordedTick::t) -
+                                   ticks.begin());
     };
     const size_t end = after(t + kSame);
     for (size_t i = after(t - RunView::kSpan); i < end; ++i) {

@@ -130,8 +130,7 @@ void drawSpans(const TraceArea& lane, std::vector<TraceSpan> spans) {
                            {std::max(lane.x(span.to), lane.x(span.from) + 2.0f), bottom - 3.0f},
                            span.colour & kDim);
     }
-    std::sort(spans.begin(), spans.end(),
-              [](const TraceSpan& a, const TraceSpan& b) { return a.from < b.from; });
+    std::ranges::sort(spans, {}, &TraceSpan::from);
     float free = -1e9f;
     for (const TraceSpan& span : spans) {
         const float x = lane.x(span.from) + 4.0f, end = x + ImGui::CalcTextSize(span.word).x;

@@ -28,8 +28,7 @@ FrameLoad loadOf(const FrameBench& bench, const FrameReport& report) {
     const auto masks = bench.masks();
     FrameLoad load{};
     load.pixels = static_cast<double>(masks.size());
-    load.selected =
-        static_cast<double>(std::count_if(masks.begin(), masks.end(), [](uint32_t m) { return m != 0; }));
+    load.selected = static_cast<double>(std::ranges::count_if(masks, [](uint32_t m) { return m != 0; }));
     std::vector<uint8_t> listed(bench.cycle().layout().patches(), 0), guided(listed);
     const uint32_t width = bench.cycle().camera().depth.width, guidance = guidanceBits(bench.scene());
     for (uint32_t i = 0; i < masks.size(); ++i) {
@@ -39,8 +38,8 @@ FrameLoad loadOf(const FrameBench& bench, const FrameReport& report) {
         guided[patch] = std::max<uint8_t>(guided[patch], guides != 0);
         load.guided += guides != 0 ? 1.0 : 0.0;
     }
-    load.slots = 256.0 * static_cast<double>(std::count(listed.begin(), listed.end(), 1));
-    load.guidedSlots = 256.0 * static_cast<double>(std::count(guided.begin(), guided.end(), 1));
+    load.slots = 256.0 * static_cast<double>(std::ranges::count(listed, 1));
+    load.guidedSlots = 256.0 * static_cast<double>(std::ranges::count(guided, 1));
     load.spheres = report.counts.spheres;
     const double edge = 2.0 * bench.plan().filterRadius + 1.0;
     load.tapsPerPixel = bench.plan().filterRadius > 0 ? edge * edge : 0.0;

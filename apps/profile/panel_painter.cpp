@@ -73,8 +73,7 @@ private:
         std::vector<PlotPoint> points = series.points;
         if (!series.connect) {
             std::erase_if(points, [](const PlotPoint& q) { return !q.isFront; });
-            std::sort(points.begin(), points.end(),
-                      [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+            std::ranges::sort(points, {}, &PlotPoint::x);
         }
         p_.setColour(colour.alpha(series.connect ? 0.9 : 0.55));
         cairo_set_line_width(p_.cr(), series.connect ? 2.2 : 3.0);
@@ -129,7 +128,7 @@ private:
         if (points.size() > kMaxLabels) {
             std::erase_if(points, [](const PlotPoint* q) { return !q->isFront && !q->isDefault; });
         }
-        std::stable_sort(points.begin(), points.end(), [](const PlotPoint* a, const PlotPoint* b) {
+        std::ranges::stable_sort(points, [](const PlotPoint* a, const PlotPoint* b) {
             return std::pair(!a->isDefault, !a->isFront) < std::pair(!b->isDefault, !b->isFront);
         });
         for (const PlotPoint* q : points) {

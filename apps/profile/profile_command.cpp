@@ -32,7 +32,7 @@ std::string studyNames() {
 void checkNames(const Settings& settings) {
     for (const std::string& name : settings.studies) {
         const auto named = [&](const StudyEntry& entry) { return name == entry.name; };
-        if (std::none_of(allStudies().begin(), allStudies().end(), named)) {
+        if (std::ranges::none_of(allStudies(), named)) {
             if (name == "peers") {
                 throw BadInput("profile", "STUDY", "'peers' is not in this build",
                                "a build with -DFATHOM_PEERS=ON, which './run peers' makes and runs");
@@ -59,8 +59,7 @@ void checkSource(const std::filesystem::path& source) {
 }
 
 bool wanted(const Settings& settings, const std::string& name) {
-    return settings.studies.empty() ||
-           std::find(settings.studies.begin(), settings.studies.end(), name) != settings.studies.end();
+    return settings.studies.empty() || std::ranges::find(settings.studies, name) != settings.studies.end();
 }
 
 // The command that produced the files, to reproduce a table. Shows only the last part of folder names.

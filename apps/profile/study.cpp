@@ -15,7 +15,7 @@ constexpr double kSame = 0.95; // repeats differ by up to 5 %
 std::vector<std::string> sourcesOf(const Study& study) {
     std::vector<std::string> names;
     for (const StudyRow& row : study.rows) {
-        if (std::find(names.begin(), names.end(), row.source) == names.end()) {
+        if (std::ranges::find(names, row.source) == names.end()) {
             names.push_back(row.source);
         }
     }
@@ -46,9 +46,8 @@ private:
 // Marks the Pareto front of the points.
 void markPoints(std::vector<PlotPoint>& points) {
     for (PlotPoint& p : points) {
-        p.isFront = std::none_of(points.begin(), points.end(), [&](const PlotPoint& o) {
-            return o.x <= p.x && o.y <= p.y && (o.x < p.x || o.y < p.y);
-        });
+        p.isFront = std::ranges::none_of(
+            points, [&](const PlotPoint& o) { return o.x <= p.x && o.y <= p.y && (o.x < p.x || o.y < p.y); });
     }
 }
 
@@ -104,8 +103,7 @@ double p90Of(const StudyRow& row, double p50) {
 void markFront(Study& study) {
     const Ranking ranking(study);
     for (StudyRow& row : study.rows) {
-        row.onFront = ranking.counts(row) &&
-                      std::none_of(study.rows.begin(), study.rows.end(), [&](const StudyRow& other) {
+        row.onFront = ranking.counts(row) && std::ranges::none_of(study.rows, [&](const StudyRow& other) {
                           return &other != &row && ranking.dominates(other, row, 1.0);
                       });
     }

@@ -118,8 +118,7 @@ std::vector<dvec2> saddles(const GreyView& image, size_t most) {
             }
         }
     }
-    std::sort(peaks.begin(), peaks.end(),
-              [](const Peak& a, const Peak& b) { return a.strength > b.strength; });
+    std::ranges::sort(peaks, std::greater{}, &Peak::strength);
     std::vector<dvec2> found;
     for (size_t i = 0; i < std::min(most, peaks.size()); ++i) {
         if (const auto place = saddle(image, {peaks[i].x, peaks[i].y})) {
@@ -227,7 +226,7 @@ void putUpright(const GreyView& image, std::vector<dvec2>& corners, size_t colum
     const dvec2 end =
         0.5 * (corners[last] - corners[last - 1]) + 0.5 * (corners[last] - corners[last - columns]);
     if (image.between(corners[0] - begin) > image.between(corners[last] + end)) {
-        std::reverse(corners.begin(), corners.end());
+        std::ranges::reverse(corners);
     }
 }
 

@@ -129,8 +129,7 @@ std::vector<RobustFit::Outlier> farthest(Pairs pairs, const Pose& pose, double b
             all.push_back({pair.name, distance});
         }
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const auto& a, const auto& b) { return a.distance > b.distance; });
+    std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.distance > b.distance; });
     return all;
 }
 
@@ -188,9 +187,8 @@ bool isFlat(Pairs pairs) {
 std::string rejectionOf(Pairs pairs, const FitLimits& limits, const Consensus& found,
                         const RobustFit& robust) {
     const std::string worst = named(farthest(pairs, robust.fit.baseTcamera, 0.0));
-    const auto nearest = std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
-        return glm::length(a.camera) < glm::length(b.camera);
-    });
+    const auto nearest = std::ranges::min_element(
+        pairs, [](const auto& a, const auto& b) { return glm::length(a.camera) < glm::length(b.camera); });
     if (glm::length(nearest->camera) >= kFar) {
         return printed("every point is over %.4g m from the camera (millimetres?)", kFar);
     }

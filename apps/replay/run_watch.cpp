@@ -45,8 +45,7 @@ uint32_t at(const std::vector<uint32_t>& list, size_t c) {
 
 // Null if the class has none in this set.
 const GuidancePose* poseOf(const HostFixtures& set, size_t row) {
-    const auto found = std::find_if(set.guidance.begin(), set.guidance.end(),
-                                    [&](const GuidancePose& pose) { return pose.fixture == row; });
+    const auto found = std::ranges::find(set.guidance, row, &GuidancePose::fixture);
     return found == set.guidance.end() ? nullptr : &*found;
 }
 

@@ -45,7 +45,7 @@ std::vector<Phase> runs(const std::vector<TraceBin>& bins) {
         for (size_t i = first; i < last; ++i) {
             ++votes[static_cast<size_t>(kindOf(bins[i]))];
         }
-        const auto winner = std::max_element(votes.begin(), votes.end()) - votes.begin();
+        const auto winner = std::ranges::max_element(votes) - votes.begin();
         const double end = last < bins.size() ? bins[last].begin : bins.back().end;
         append(phases, {bins[first].begin, end, static_cast<PhaseKind>(winner)});
     }
@@ -81,10 +81,8 @@ std::vector<Phase> findPhases(const TraceHistory& history, size_t most) {
     std::vector<Phase> phases = runs(bins);
     const double flicker = kFlickerShare * (bins.back().end - bins.front().begin);
     while (phases.size() > 1) {
-        const auto shortest =
-            std::min_element(phases.begin(), phases.end(), [](const Phase& a, const Phase& b) {
-                return a.end - a.begin < b.end - b.begin;
-            });
+        const auto shortest = std::ranges::min_element(
+            phases, [](const Phase& a, const Phase& b) { return a.end - a.begin < b.end - b.begin; });
         if (shortest->end - shortest->begin >= flicker && phases.size() <= most) {
             break;
         }

@@ -127,8 +127,7 @@ void convertTree(const SpheresOptions& options) {
         s.radius *= scale;
     }
     const auto leaves = tree.lastLevel();
-    const auto used =
-        std::count_if(leaves.begin(), leaves.end(), [](const Sphere& s) { return s.radius >= 0.0; });
+    const auto used = std::ranges::count_if(leaves, [](const Sphere& s) { return s.radius >= 0.0; });
     writeSph(tree, options.out);
     std::cout << used << " leaf spheres with recomputed parents written to " << options.out.string()
               << std::endl;

@@ -50,9 +50,8 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
         return all;
     }
     for (const std::string& name : names) {
-        const bool exists = std::any_of(all.begin(), all.end(), [&](const Case& c) {
-            return c.name == name || nameOfGroup(c.group) == name;
-        });
+        const bool exists = std::ranges::any_of(
+            all, [&](const Case& c) { return c.name == name || nameOfGroup(c.group) == name; });
         if (!exists) {
             std::vector<std::string_view> known(std::begin(kGroupNames), std::end(kGroupNames));
             std::ranges::transform(all, std::back_inserter(known), &Case::name);
@@ -62,7 +61,7 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
     }
     std::vector<Case> chosen;
     for (const Case& c : all) {
-        if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        if (std::ranges::any_of(names, [&](const std::string& name) {
                 return c.name == name || nameOfGroup(c.group) == name;
             })) {
             chosen.push_back(c);

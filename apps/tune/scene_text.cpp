@@ -86,8 +86,7 @@ public:
     }
 
     std::string result() {
-        std::stable_sort(edits_.begin(), edits_.end(),
-                         [](const TextEdit& a, const TextEdit& b) { return a.at < b.at; });
+        std::ranges::stable_sort(edits_, {}, &TextEdit::at);
         std::string out = text_;
         for (auto edit = edits_.rbegin(); edit != edits_.rend(); ++edit) {
             out.replace(edit->at, edit->erase, edit->text);
@@ -164,7 +163,7 @@ bool sameNodes(const YAML::Node& a, const YAML::Node& b) {
         }
         return true;
     }
-    return !a.IsMap() || std::all_of(a.begin(), a.end(), [&](const auto& entry) {
+    return !a.IsMap() || std::ranges::all_of(a, [&](const auto& entry) {
         const YAML::Node other = b[entry.first.Scalar()];
         return other.IsDefined() && sameNodes(entry.second, other);
     });
@@ -175,7 +174,7 @@ std::vector<SceneValue> joined(const std::string& text, const std::vector<SceneV
     const YAML::Node root = YAML::Load(text);
     std::vector<SceneValue> list;
     for (const SceneValue& value : values) {
-        const auto same = std::find_if(list.begin(), list.end(), [&](const SceneValue& other) {
+        const auto same = std::ranges::find_if(list, [&](const SceneValue& other) {
             return other.path.size() == 1 && value.path.size() == 2 && other.path[0] == value.path[0];
         });
         if (value.path.size() != 2 || root[value.path[0]].IsDefined()) {

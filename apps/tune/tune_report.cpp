@@ -22,7 +22,7 @@ constexpr const char* kHead =
     "query_p90_ms,tick_ms,to_force_ms,on_front,dominated_by,meets,chosen,not_chosen_because,time_scale\n";
 
 std::string withoutCommas(std::string text) {
-    std::replace(text.begin(), text.end(), ',', ';');
+    std::ranges::replace(text, ',', ';');
     return text.empty() ? "-" : text;
 }
 
@@ -83,8 +83,7 @@ PlotPanel panelOf(const TuneResult& result, const std::string& title, double Sco
             best.points.push_back(point);
             continue;
         }
-        const auto same = std::find_if(others.begin(), others.end(),
-                                       [&](const PlotSeries& s) { return s.name == p.varied; });
+        const auto same = std::ranges::find(others, p.varied, &PlotSeries::name);
         (same == others.end() ? others.emplace_back(PlotSeries{p.varied, {}}) : *same)
             .points.push_back(point);
     }

@@ -24,9 +24,7 @@ public:
     std::string at(uint64_t time, Fault&& fault) {
         constexpr uint64_t kAtOnce = 20'000'000; // [ns]
         const std::vector<MessageEntry>& all = topic_.messages;
-        const auto next =
-            std::upper_bound(all.begin(), all.end(), time,
-                             [](uint64_t t, const MessageEntry& entry) { return t < entry.time; });
+        const auto next = std::ranges::upper_bound(all, time, {}, &MessageEntry::time);
         const auto after = static_cast<size_t>(next - all.begin());
         const size_t first = after > 0 ? after - 1 : 0;
         std::string found = one(first, fault);

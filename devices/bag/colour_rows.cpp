@@ -86,8 +86,7 @@ void plainRow(const uint8_t* in, const ColourLayout& layout, bool bigEndian, uin
 
 const ColourLayout* colourLayout(const std::string& encoding) {
     const std::string name = lowerCase(encoding);
-    const auto layout = std::find_if(kLayouts.begin(), kLayouts.end(),
-                                     [&](const ColourLayout& one) { return name == one.encoding; });
+    const auto layout = std::ranges::find(kLayouts, name, &ColourLayout::encoding);
     return layout == kLayouts.end() ? nullptr : &*layout;
 }
 

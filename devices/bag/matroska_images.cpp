@@ -23,8 +23,7 @@ constexpr std::array kCodes{KnownCode{"b16g", "mono16", 2, true}, KnownCode{"Y16
 
 MatroskaImages::MatroskaImages(const MatroskaTrack& track, std::string called)
     : name(std::move(called)) {
-    const auto code = std::find_if(kCodes.begin(), kCodes.end(),
-                                   [&](const KnownCode& one) { return one.fourcc == track.fourcc; });
+    const auto code = std::ranges::find(kCodes, track.fourcc, &KnownCode::fourcc);
     const bool sized =
         track.width > 0 && track.width <= kMaxSide && track.height > 0 && track.height <= kMaxSide;
     if (code == kCodes.end() || !sized || track.encoded) {

@@ -181,8 +181,7 @@ void McapFile::resolve() {
 
 UnpackedChunk McapFile::unpack(uint64_t chunkAt) {
     return unpacked_.at(chunkAt, [&] {
-        const auto chunk = std::lower_bound(chunks_.begin(), chunks_.end(), chunkAt,
-                                            [](const Chunk& c, uint64_t at) { return c.at < at; });
+        const auto chunk = std::ranges::lower_bound(chunks_, chunkAt, {}, &Chunk::at);
         if (chunk == chunks_.end() || chunk->at != chunkAt) {
             throw Error("the index does not point to a chunk");
         }

@@ -86,8 +86,7 @@ std::optional<McapSummary> parsed(std::span<const uint8_t> records, uint64_t end
             counted = true;
         }
     }
-    std::sort(summary.chunks.begin(), summary.chunks.end(),
-              [](const auto& a, const auto& b) { return a.at < b.at; });
+    std::ranges::sort(summary.chunks, [](const auto& a, const auto& b) { return a.at < b.at; });
     const bool whole = counted && chunks == summary.chunks.size() && ordered(summary.chunks, end);
     return whole ? std::optional(std::move(summary)) : std::nullopt;
 }

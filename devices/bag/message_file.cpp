@@ -16,8 +16,7 @@
 namespace fathom {
 
 const MessageTopic* MessageFile::find(const std::string& name) const {
-    const auto topic =
-        std::find_if(topics_.begin(), topics_.end(), [&](const MessageTopic& t) { return t.name == name; });
+    const auto topic = std::ranges::find(topics_, name, &MessageTopic::name);
     return topic == topics_.end() ? nullptr : &*topic;
 }
 
@@ -27,8 +26,7 @@ std::string MessageFile::faultOf(const std::string& topic) const {
 }
 
 size_t MessageFile::topicAt(const std::string& name, std::string type, bool cdr) {
-    const auto topic =
-        std::find_if(topics_.begin(), topics_.end(), [&](const MessageTopic& t) { return t.name == name; });
+    const auto topic = std::ranges::find(topics_, name, &MessageTopic::name);
     if (topic != topics_.end()) {
         return static_cast<size_t>(topic - topics_.begin());
     }
@@ -41,8 +39,7 @@ size_t MessageFile::topicAt(const std::string& name, std::string type, bool cdr)
 
 void MessageFile::sortByTime() {
     for (MessageTopic& topic : topics_) {
-        std::stable_sort(topic.messages.begin(), topic.messages.end(),
-                         [](const MessageEntry& a, const MessageEntry& b) { return a.time < b.time; });
+        std::ranges::stable_sort(topic.messages, {}, &MessageEntry::time);
     }
 }
 

@@ -52,8 +52,7 @@ std::vector<fs::path> messageFiles(const fs::path& folder) {
             files.push_back(file);
         }
     }
-    std::sort(files.begin(), files.end(),
-              [](const auto& a, const auto& b) { return fileOrder(a) < fileOrder(b); });
+    std::ranges::sort(files, [](const auto& a, const auto& b) { return fileOrder(a) < fileOrder(b); });
     return files;
 }
 
@@ -66,7 +65,7 @@ std::vector<fs::path> listedFiles(const fs::path& folder) {
         const YAML::Node root = onlyYamlDocument(metadata.string(), readTextFile(metadata));
         for (const YAML::Node& name : root[kBagInformation]["relative_file_paths"]) {
             const fs::path file = folder / fs::path(name.as<std::string>()).filename();
-            if (file.has_filename() && std::find(files.begin(), files.end(), file) == files.end()) {
+            if (file.has_filename() && std::ranges::find(files, file) == files.end()) {
                 files.push_back(file);
             }
         }
@@ -95,7 +94,7 @@ std::vector<fs::path> unlistedFiles(const fs::path& folder, const std::vector<fs
     if (files.empty()) {
         throw BadInput(folder.string(), "files", "none", "metadata.yaml with .mcap or .db3 files");
     }
-    if (const auto packed = std::find_if(files.begin(), files.end(), isPacked); packed != files.end()) {
+    if (const auto packed = std::ranges::find_if(files, isPacked); packed != files.end()) {
         refusePacked(*packed);
     }
     for (const fs::path& file : files) {
@@ -113,7 +112,7 @@ void logUnlisted(const fs::path& folder, const std::vector<fs::path>& there,
                  const std::vector<fs::path>& listed) {
     std::string others;
     for (const fs::path& file : there) {
-        if (std::find(listed.begin(), listed.end(), file) == listed.end()) {
+        if (std::ranges::find(listed, file) == listed.end()) {
             others += (others.empty() ? "" : ", ") + file.filename().string();
         }
     }

@@ -58,8 +58,7 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
     const auto apart = [recordedAt](uint64_t time) {
         return time > recordedAt ? time - recordedAt : recordedAt - time;
     };
-    const auto middle = std::lower_bound(all.begin(), all.end(), recordedAt,
-                                         [](const MessageEntry& e, uint64_t t) { return e.time < t; });
+    const auto middle = std::ranges::lower_bound(all, recordedAt, {}, &MessageEntry::time);
     const auto from = static_cast<size_t>(middle - all.begin());
     std::optional<size_t> best;
     double least = within;
@@ -193,20 +192,17 @@ std::string StampedStream::whyNoSeconds() {
 size_t StampedStream::firstAfter(double seconds) {
     const std::vector<MessageEntry>& all = topic_.messages;
     if (!recordedInTime()) {
-        const auto first =
-            std::find_if(stamps_.begin(), stamps_.end(), [](double stamp) { return std::isfinite(stamp); });
+        const auto first = std::ranges::find_if(stamps_, [](double stamp) { return std::isfinite(stamp); });
         return firstFrom(*first + seconds);
     }
-    const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
-        return secondsOf(entry.time - all.front().time) >= seconds;
-    });
+    const auto at = std::ranges::find_if(
+        all, [&](const MessageEntry& entry) { return secondsOf(entry.time - all.front().time) >= seconds; });
     return static_cast<size_t>(at - all.begin());
 }
 
 bool StampedStream::hasRecorded(uint64_t time, double within) const {
     const std::vector<MessageEntry>& all = topic_.messages;
-    const auto next = std::lower_bound(all.begin(), all.end(), time,
-                                       [](const MessageEntry& e, uint64_t t) { return e.time < t; });
+    const auto next = std::ranges::lower_bound(all, time, {}, &MessageEntry::time);
     return (next != all.end() && secondsOf(next->time - time) <= within) ||
            (next != all.begin() && secondsOf(time - (next - 1)->time) <= within);
 }

@@ -28,8 +28,7 @@ public:
             kept_.reserve(kMax);
             return kept_.emplace_back(std::move(fresh)).bytes;
         }
-        auto oldest = std::min_element(kept_.begin(), kept_.end(),
-                                       [](const Kept& a, const Kept& b) { return a.used < b.used; });
+        auto oldest = std::ranges::min_element(kept_, {}, &Kept::used);
         *oldest = std::move(fresh);
         return oldest->bytes;
     }

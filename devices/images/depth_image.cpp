@@ -39,8 +39,7 @@ constexpr std::array kDepthFormats{
 
 // By the first bytes; null for PNG and whatever is not known.
 const DepthFormat* formatOf(ImageBytes bytes) {
-    const auto found =
-        std::find_if(kDepthFormats.begin(), kDepthFormats.end(), [&](const auto& f) { return f.is(bytes); });
+    const auto found = std::ranges::find_if(kDepthFormats, [&](const auto& f) { return f.is(bytes); });
     return found == kDepthFormats.end() ? nullptr : &*found;
 }
 

@@ -63,8 +63,8 @@ private:
             {"red", "green", "blue"}, {"r", "g", "b"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}};
         for (const auto& names : kNames) {
             places.colour = {vertex.find(names[0]), vertex.find(names[1]), vertex.find(names[2])};
-            places.coloured = std::all_of(places.colour.begin(), places.colour.end(),
-                                          [&](size_t at) { return at < all.size() && !all[at].list; });
+            places.coloured = std::ranges::all_of(
+                places.colour, [&](size_t at) { return at < all.size() && !all[at].list; });
             if (places.coloured) {
                 places.real = plyReal(all[places.colour[0]].type);
                 break;
@@ -170,9 +170,8 @@ private:
             values_.refuse(grid_.empty() ? "element vertex" : "element range_grid", std::to_string(have),
                            "num_cols x num_rows: " + std::to_string(pixels));
         }
-        const auto wrong = std::find_if(grid_.begin(), grid_.end(), [&](uint32_t point) {
-            return point != kNoPoint && point >= points_.size();
-        });
+        const auto wrong = std::ranges::find_if(
+            grid_, [&](uint32_t point) { return point != kNoPoint && point >= points_.size(); });
         if (wrong != grid_.end()) {
             values_.refuse("element range_grid " + std::to_string(wrong - grid_.begin()),
                            std::to_string(*wrong), "less than " + std::to_string(points_.size()));

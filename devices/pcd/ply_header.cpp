@@ -98,7 +98,7 @@ private:
     void readFormat(const std::vector<std::string>& words) {
         constexpr std::array<std::string_view, 3> kNames{"ascii", "binary_little_endian",
                                                          "binary_big_endian"};
-        const auto name = std::find(kNames.begin(), kNames.end(), words.size() > 1 ? words[1] : "");
+        const auto name = std::ranges::find(kNames, words.size() > 1 ? words[1] : "");
         if (name == kNames.end() || words.size() < 3 || words[2] != "1.0") {
             refuse("format", words.size() > 1 ? words[1] : "missing", kFormats);
         }
@@ -119,9 +119,8 @@ private:
     }
 
     PlyType type(const std::string& name) const {
-        const auto found = std::find_if(kPlyTypes.begin(), kPlyTypes.end(), [&](const PlyTypeName& t) {
-            return t.name == name || t.other == name;
-        });
+        const auto found = std::ranges::find_if(
+            kPlyTypes, [&](const PlyTypeName& t) { return t.name == name || t.other == name; });
         if (found == kPlyTypes.end()) {
             refuse("property", name, "char, uchar, short, ushort, int, uint, float, double");
         }
@@ -180,8 +179,7 @@ bool plyReal(PlyType type) {
 }
 
 size_t PlyElement::find(const std::string& property) const {
-    const auto found = std::find_if(properties.begin(), properties.end(),
-                                    [&](const PlyProperty& p) { return p.name == property; });
+    const auto found = std::ranges::find(properties, property, &PlyProperty::name);
     return static_cast<size_t>(found - properties.begin());
 }
 

@@ -185,8 +185,7 @@ void PoseTrack::warnIfFast(const std::filesystem::path& file) const {
 }
 
 std::vector<PoseTrack::Stamped>::const_iterator PoseTrack::after(double t) const noexcept {
-    return std::upper_bound(poses_.begin(), poses_.end(), t,
-                            [](double time, const Stamped& p) { return time < p.t; });
+    return std::ranges::upper_bound(poses_, t, {}, &Stamped::t);
 }
 
 std::optional<Pose> PoseTrack::at(double t) const noexcept {

@@ -99,10 +99,6 @@ std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<
     return files;
 }
 
-bool beforeStamp(const StampedFile& file, double stamp) {
-    return file.stamp < stamp;
-}
-
 struct Candidate {
     double distance; // [s]
     size_t depth, colour;
@@ -117,7 +113,7 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
     size_t alike = 0; // depth images before this one with its stamp
     for (size_t d = 0; d < depth.size(); ++d) {
         alike = d > 0 && depth[d].stamp == depth[d - 1].stamp ? alike + 1 : 0;
-        const auto at = std::lower_bound(colour.begin(), colour.end(), depth[d].stamp, beforeStamp);
+        const auto at = std::ranges::lower_bound(colour, depth[d].stamp, {}, &StampedFile::stamp);
         const size_t middle = std::min(static_cast<size_t>(at - colour.begin()) + alike, colour.size());
         const size_t last = std::min(middle + kCandidates, colour.size());
         for (size_t c = middle - std::min(middle, kCandidates); c < last; ++c) {
@@ -127,8 +123,7 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
             }
         }
     }
-    std::stable_sort(pairs.begin(), pairs.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    std::ranges::stable_sort(pairs, {}, &Candidate::distance);
     return pairs;
 }
 
@@ -197,7 +192,7 @@ struct FoundIndex {
 double nearestApart(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
     double nearest = HUGE_VAL;
     for (const StampedFile& image : depth) {
-        const auto after = std::lower_bound(colour.begin(), colour.end(), image.stamp, beforeStamp);
+        const auto after = std::ranges::lower_bound(colour, image.stamp, {}, &StampedFile::stamp);
         nearest = after == colour.end() ? nearest : std::min(nearest, after->stamp - image.stamp);
         nearest = after == colour.begin() ? nearest : std::min(nearest, image.stamp - (after - 1)->stamp);
     }
@@ -206,8 +201,7 @@ double nearestApart(const std::vector<StampedFile>& depth, const std::vector<Sta
 
 FoundIndex pairedByStamp(const std::vector<StampedFile>& depth, std::vector<StampedFile> colour,
                          double within, const std::string& source) {
-    std::stable_sort(colour.begin(), colour.end(),
-                     [](const StampedFile& a, const StampedFile& b) { return a.stamp < b.stamp; });
+    std::ranges::stable_sort(colour, {}, &StampedFile::stamp);
     FoundIndex found{associate(depth, colour, within), source};
     if (found.lines.empty() && !depth.empty() && !colour.empty()) { // in another unit all are too far apart
         std::ostringstream why;

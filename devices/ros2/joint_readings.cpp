@@ -66,8 +66,8 @@ void JointReadings::read(const Ros2Message& message) {
     const auto named = ros2::jointPositions(message.message->bytes());
     std::vector<std::pair<size_t, double>> found;
     for (const auto& [name, position] : named) {
-        const auto joint = std::find_if(joints_.begin(), joints_.end(),
-                                        [&, &n = name](const RobotJoint& j) { return j.name == n; });
+        const auto joint =
+            std::ranges::find_if(joints_, [&, &n = name](const RobotJoint& j) { return j.name == n; });
         if (joint == joints_.end()) {
             nameUnknown(name);
             continue;
@@ -77,8 +77,7 @@ void JointReadings::read(const Ros2Message& message) {
             throw Error("joint " + name + ": " + std::to_string(position) + " (allowed: " +
                         std::to_string(joint->lower) + " to " + std::to_string(joint->upper) + ")");
         }
-        if (std::any_of(found.begin(), found.end(),
-                        [&](const auto& f) { return &joints_[f.first] == &*joint; })) {
+        if (std::ranges::any_of(found, [&](const auto& f) { return &joints_[f.first] == &*joint; })) {
             throw Error("joint " + name + " twice");
         }
         found.emplace_back(static_cast<size_t>(joint - joints_.begin()), inside);

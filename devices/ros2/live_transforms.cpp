@@ -76,8 +76,7 @@ void LiveTransforms::insert(Link& to, const Stamped& pose) {
         to.poses.clear();
     }
     to.back = 0;
-    const auto place = std::lower_bound(to.poses.begin(), to.poses.end(), pose.time,
-                                        [](const Stamped& s, double time) { return s.time < time; });
+    const auto place = std::ranges::lower_bound(to.poses, pose.time, {}, &Stamped::time);
     if (place != to.poses.end() && place->time == pose.time) {
         *place = pose;
     } else {
@@ -105,8 +104,7 @@ std::vector<std::string> LiveTransforms::ancestors(const std::string& frame) con
 std::optional<std::string> LiveTransforms::common(const std::string& a, const std::string& b) const {
     const std::vector<std::string> ofA = ancestors(a), ofB = ancestors(b);
     const std::set<std::string> known(ofB.begin(), ofB.end());
-    const auto found =
-        std::find_if(ofA.begin(), ofA.end(), [&](const std::string& f) { return known.contains(f); });
+    const auto found = std::ranges::find_if(ofA, [&](const std::string& f) { return known.contains(f); });
     return found != ofA.end() ? std::optional(*found) : std::nullopt;
 }
 
@@ -116,8 +114,7 @@ LiveTransforms::Answer LiveTransforms::at(const std::string& child, const Link& 
     if (link.fixed) {
         return {link.poses.front().parentTchild};
     }
-    const auto next = std::lower_bound(link.poses.begin(), link.poses.end(), stamp - kSlack,
-                                       [](const Stamped& s, double time) { return s.time < time; });
+    const auto next = std::ranges::lower_bound(link.poses, stamp - kSlack, {}, &Stamped::time);
     if (next == link.poses.end()) {
         return {std::nullopt, true, name + " ends before it"};
     }

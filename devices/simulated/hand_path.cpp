@@ -27,8 +27,7 @@ HandPath::HandPath(std::vector<HandWaypoint> waypoints)
 }
 
 HandSample HandPath::at(double t) const noexcept {
-    const auto after = std::upper_bound(waypoints_.begin(), waypoints_.end(), t,
-                                        [](double time, const HandWaypoint& w) { return time < w.t; });
+    const auto after = std::ranges::upper_bound(waypoints_, t, {}, &HandWaypoint::t);
     if (after == waypoints_.begin()) {
         return {after->deviceThandle, after->buttons};
     }

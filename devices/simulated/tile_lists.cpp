@@ -106,8 +106,7 @@ void TileLists::build(const AnalyticScene& scene, const Pose& sceneTview, const 
         }
     }
     for (auto& tile : tiles_) {
-        std::stable_sort(tile.begin(), tile.end(),
-                         [](const Entry& a, const Entry& b) { return a.near < b.near; });
+        std::ranges::stable_sort(tile, {}, &Entry::near);
     }
 }
 

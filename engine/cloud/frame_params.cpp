@@ -71,9 +71,8 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
     std::vector<uint32_t> order(params.depthBand.z);
     std::iota(order.begin(), order.end(), 0u);
     std::erase_if(order, [&](uint32_t c) { return params.classes[c].role.y == 0.0f; });
-    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
-        return params.classes[a].role.x > params.classes[b].role.x;
-    });
+    std::ranges::stable_sort(
+        order, [&](uint32_t a, uint32_t b) { return params.classes[a].role.x > params.classes[b].role.x; });
     uint32_t packed = 0xffffffffu;
     for (size_t i = 0; i < order.size(); ++i) {
         packed = (packed & ~(15u << (4 * i))) | (order[i] << (4 * i));

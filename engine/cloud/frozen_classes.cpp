@@ -38,8 +38,7 @@ FrozenClasses::Kept FrozenClasses::take(const HostFixtures& set, uint32_t row) {
             kept.spheres.source.back() += moved;
         }
     }
-    const auto guidance = std::find_if(set.guidance.begin(), set.guidance.end(),
-                                       [&](const GuidancePose& g) { return g.fixture == row; });
+    const auto guidance = std::ranges::find(set.guidance, row, &GuidancePose::fixture);
     if (guidance != set.guidance.end()) {
         kept.guidance = *guidance;
     }

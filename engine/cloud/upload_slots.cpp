@@ -61,9 +61,8 @@ std::optional<uint32_t> UploadSlots::room() const {
     // A slot and its buffer each hold the memory once. A higher count means that the camera or a frame still
     // uses it. If one memory of a pair is gone, the pair never returns.
     const auto gone = [this](const std::shared_ptr<const void>& memory) {
-        const auto slots = std::count_if(images_.begin(), images_.end(), [&](const Images& p) {
-            return p.depth == memory || p.colour == memory;
-        });
+        const auto slots = std::ranges::count_if(
+            images_, [&](const Images& p) { return p.depth == memory || p.colour == memory; });
         return memory && memory.use_count() <= 2 * slots;
     };
     for (uint32_t i = kCopied + 1; i < images_.size(); ++i) {

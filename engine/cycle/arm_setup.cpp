@@ -71,8 +71,7 @@ private:
 
     void checkMotion() const {
         const auto& joints = armSetup_->model.joints;
-        if (std::all_of(joints.begin(), joints.end(),
-                        [](const ArmJoint& joint) { return bool(joint.mimic); })) {
+        if (std::ranges::all_of(joints, [](const ArmJoint& joint) { return bool(joint.mimic); })) {
             refuse("tip", armSetup_->model.tipText,
                    "a link with a moving joint between it and arm.base, here " + armSetup_->model.baseText);
         }
@@ -101,8 +100,7 @@ private:
 
     size_t indexOf(const std::string& field, const std::string& name) const {
         const std::vector<ArmJoint>& joints = armSetup_->model.joints;
-        const auto found =
-            std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
+        const auto found = std::ranges::find(joints, name, &ArmJoint::name);
         if (found == joints.end()) {
             refuse(field + ".name", "'" + name + "'", joined(joints, &ArmJoint::name));
         }
@@ -162,7 +160,7 @@ private:
 
     void note(const std::string& line) {
         std::vector<std::string>& notes = armSetup_->model.notes;
-        if (!line.empty() && std::find(notes.begin(), notes.end(), line) == notes.end()) {
+        if (!line.empty() && std::ranges::find(notes, line) == notes.end()) {
             notes.push_back(line);
         }
     }
@@ -212,7 +210,7 @@ private:
             const auto& wanted = arm_.grasp.fingers[i];
             const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
             const auto& fingers = armSetup_->model.fingers;
-            const ArmFinger& finger = *std::find_if(fingers.begin(), fingers.end(), same);
+            const ArmFinger& finger = *std::ranges::find_if(fingers, same);
             for (const auto& [name, at] : {std::pair{"open", finger.open}, {"closed", finger.closed}}) {
                 if (at < finger.lower || at > finger.upper) {
                     refuse("grasp.fingers[" + std::to_string(i) + "]." + name, text(at),

@@ -88,8 +88,7 @@ std::span<const DevicePreset> devicePresets() {
 }
 
 const DevicePreset* findPreset(const std::string& name) {
-    const auto found =
-        std::find_if(table().begin(), table().end(), [&](const DevicePreset& p) { return p.name == name; });
+    const auto found = std::ranges::find_if(table(), [&](const DevicePreset& p) { return p.name == name; });
     return found != table().end() ? &*found : nullptr;
 }
 

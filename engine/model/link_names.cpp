@@ -174,9 +174,8 @@ size_t toolRank(const std::string& link) {
 
 bool namesPart(const std::string& link) {
     const std::string name = lowered(link);
-    const auto first = std::find(kToolNames.begin(), kToolNames.end(), "flange");
-    return toolRank(link) < kNoTool &&
-           std::find(kToolNames.begin(), kToolNames.end(), name) == kToolNames.end() &&
+    const auto first = std::ranges::find(kToolNames, "flange");
+    return toolRank(link) < kNoTool && std::ranges::find(kToolNames, name) == kToolNames.end() &&
            toolRank(link) >= static_cast<size_t>(first - kToolNames.begin());
 }
 

@@ -119,8 +119,7 @@ std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::st
     if (link.empty()) {
         return sets;
     }
-    const auto found =
-        std::find_if(sets.begin(), sets.end(), [&](const LinkSpheres& s) { return s.link == link; });
+    const auto found = std::ranges::find(sets, link, &LinkSpheres::link);
     if (found == sets.end()) {
         throw BadInput(file.string(), "link", "'" + link + "'", namesOf(sets));
     }

@@ -69,7 +69,7 @@ void dropFaces(TriangleMesh& mesh, MeshFacts& facts) {
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[i];
         Triangle sorted = t;
-        std::sort(sorted.begin(), sorted.end());
+        std::ranges::sort(sorted);
         if (sorted[0] == sorted[1] || sorted[1] == sorted[2] || !(mesh.area(i) > 0.0)) {
             ++facts.noArea;
         } else if (!known.emplace(sorted, true).second) {
@@ -169,8 +169,7 @@ std::vector<Part> partsOf(const TriangleMesh& mesh, std::vector<uint32_t>& paren
     for (const auto& [root, part] : byRoot) {
         parts.push_back(part);
     }
-    std::stable_sort(parts.begin(), parts.end(),
-                     [](const Part& a, const Part& b) { return a.area > b.area; });
+    std::ranges::stable_sort(parts, std::greater{}, &Part::area);
     return parts;
 }
 

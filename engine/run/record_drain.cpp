@@ -73,9 +73,8 @@ ObeyedSet RecordDrain::obeyedBy(const TickRow& row) const {
     if (row.generation == 0) { // it obeyed no set
         return {nullptr, true, {}};
     }
-    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const PublishedFrame* frame) {
-        return frame->fixtures.generation == row.generation;
-    });
+    const auto found = std::ranges::find_if(
+        kept_, [&](const PublishedFrame* frame) { return frame->fixtures.generation == row.generation; });
     if (found == kept_.end()) {
         return {};
     }

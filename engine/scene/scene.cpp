@@ -8,22 +8,22 @@
 namespace fathom {
 
 bool Scene::hasPoints() const {
-    return std::any_of(fixtures.begin(), fixtures.end(), [](const FixtureClass& f) { return f.isPoints(); });
+    return std::ranges::any_of(fixtures, [](const FixtureClass& f) { return f.isPoints(); });
 }
 
 bool Scene::hasForbiddenPoints() const {
-    return std::any_of(fixtures.begin(), fixtures.end(),
-                       [](const FixtureClass& f) { return f.isPoints() && f.role == Role::Forbidden; });
+    return std::ranges::any_of(
+        fixtures, [](const FixtureClass& f) { return f.isPoints() && f.role == Role::Forbidden; });
 }
 
 bool Scene::hasGuidance() const {
-    return std::any_of(fixtures.begin(), fixtures.end(),
-                       [](const FixtureClass& f) { return f.isPoints() && f.role == Role::Guidance; });
+    return std::ranges::any_of(
+        fixtures, [](const FixtureClass& f) { return f.isPoints() && f.role == Role::Guidance; });
 }
 
 bool Scene::usesColour() const {
-    return std::any_of(fixtures.begin(), fixtures.end(),
-                       [](const FixtureClass& f) { return f.isPoints() && f.usesColour(); });
+    return std::ranges::any_of(fixtures,
+                               [](const FixtureClass& f) { return f.isPoints() && f.usesColour(); });
 }
 
 double Scene::filterBound() const {
@@ -40,8 +40,7 @@ std::string Scene::pilotNames() const {
 }
 
 bool Scene::choosePilot(const std::string& name) {
-    const auto at =
-        std::find_if(pilots.begin(), pilots.end(), [&](const Pilot& p) { return p.name == name; });
+    const auto at = std::ranges::find(pilots, name, &Pilot::name);
     if (at == pilots.end()) {
         return false;
     }

@@ -11,8 +11,7 @@ namespace fathom {
 bool RunWarnings::add(const std::string& key, const std::string& text) {
     {
         const std::lock_guard lock(mutex_);
-        const bool known =
-            std::any_of(texts_.begin(), texts_.end(), [&](const auto& t) { return t.first == key; });
+        const bool known = std::ranges::any_of(texts_, [&](const auto& t) { return t.first == key; });
         if (known || texts_.size() == kMax) {
             return false;
         }
