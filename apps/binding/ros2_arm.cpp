@@ -6,7 +6,6 @@
 #include "engine/types/clock.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace fathom {
 

@@ -8,7 +8,6 @@
 #include "engine/types/printed.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::operate {
 

@@ -2,7 +2,6 @@
 #include "apps/operate/camera_view_image.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::operate {
 

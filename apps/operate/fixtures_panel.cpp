@@ -9,7 +9,6 @@
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::operate {
 

@@ -2,7 +2,6 @@
 #include "apps/operate/panel_fill.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::operate {
 

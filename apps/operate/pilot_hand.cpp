@@ -5,7 +5,6 @@
 #include "engine/types/wrench.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom::operate {
 

@@ -9,7 +9,6 @@
 #include "engine/types/input_files.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 namespace fathom::operate {

@@ -9,7 +9,6 @@
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <imgui.h>

@@ -5,7 +5,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <iomanip>
 

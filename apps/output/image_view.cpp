@@ -2,7 +2,6 @@
 #include "apps/output/image_view.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom {
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
-#include <cmath>
 #include <sstream>
 
 namespace fathom {

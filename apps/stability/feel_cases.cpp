@@ -8,7 +8,6 @@
 #include "apps/stability/feel_rig.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace fathom::stability {

@@ -4,7 +4,6 @@
 #include "devices/bag/topic_words.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <string_view>
 #include <vector>

@@ -11,7 +11,6 @@
 #include <csetjmp>
 #include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <png.h>
 #include <vector>

@@ -15,7 +15,6 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 

@@ -7,7 +7,6 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace fathom {
 

@@ -6,8 +6,6 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
-#include <chrono>
-
 namespace fathom {
 
 namespace {

@@ -4,7 +4,6 @@
 #include "engine/types/clock.h"
 
 #include <cerrno>
-#include <chrono>
 #include <poll.h>
 #include <span>
 #include <sys/socket.h>

@@ -6,7 +6,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <libusb-1.0/libusb.h>
 
 namespace fathom {

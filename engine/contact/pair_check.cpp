@@ -3,7 +3,6 @@
 #include "engine/contact/narrow_phase.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace fathom {
 

@@ -2,7 +2,6 @@
 #include "engine/model/greedy_cover.h"
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <queue>
 
 namespace fathom {

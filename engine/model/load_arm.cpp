@@ -12,7 +12,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 

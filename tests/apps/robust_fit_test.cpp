@@ -3,7 +3,6 @@
 #include "apps/register/robust_fit.h"
 #include "tests/apps/point_pairs.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <random>

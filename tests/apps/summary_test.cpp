@@ -7,7 +7,6 @@
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
 #include <nlohmann/json.hpp>

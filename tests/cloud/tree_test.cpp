@@ -5,7 +5,6 @@
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
-#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;

@@ -7,7 +7,6 @@
 #include "tests/cycle/same_contacts.h"
 #include "tests/support/vulkan.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <random>
 

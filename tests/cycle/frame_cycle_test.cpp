@@ -6,7 +6,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;

@@ -2,7 +2,6 @@
 // An engine and the process around it: drivers that are missing, signals, forked children.
 #include "tests/engine/wall_world.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <doctest/doctest.h>

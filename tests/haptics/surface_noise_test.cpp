@@ -3,7 +3,6 @@
 #include "engine/haptics/reaction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <random>

@@ -6,7 +6,6 @@
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
-#include <cmath>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <glm/geometric.hpp>

@@ -3,7 +3,6 @@
 // modes.
 #include "tests/rig/stage.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 

@@ -8,7 +8,6 @@
 #include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
-#include <future>
 
 using namespace fathom;
 
