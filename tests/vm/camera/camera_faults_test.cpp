@@ -30,37 +30,31 @@ void readFrames(V4l2Camera& camera, int count) {
 } // namespace
 
 TEST_CASE("Frames that the driver drops appear as gaps of its counter and are counted as lost") {
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    const auto camera = plugged.open();
     readFrames(*camera, 3);
     const uint64_t before = camera->lost();
-    device.depth().faults.errorBit = 2;
-    device.depth().faults.cutShort = 1;
+    plugged.device.depth().faults.errorBit = 2;
+    plugged.device.depth().faults.cutShort = 1;
     readFrames(*camera, 6);
     CHECK(camera->lost() >= before + 2); // the driver can miss one because of a toggle it did not see
-    CHECK(device.depth().faults.errorBit == 0);
-    CHECK(device.depth().faults.cutShort == 0);
+    CHECK(plugged.device.depth().faults.errorBit == 0);
+    CHECK(plugged.device.depth().faults.cutShort == 0);
     CHECK(camera->skipped() == 0);
 }
 
 TEST_CASE(
     "Gaps of the colour stream are counted separately and cost no pair where a neighbour is close enough") {
-    UvcCamera device({});
-    device.plug();
-    REQUIRE(waitForCamera());
-    const IntrinsicsFile lens(320, 240);
-    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    PluggedCamera plugged({});
+    CameraRequest request = plugged.request();
     request.everyFrame = true;
     V4l2Camera camera(request);
     readFrames(camera, 3);
     const uint64_t before = camera.lostColour(), depth = camera.lost();
     const testing::Listening log;
-    device.colour().faults.errorBit = 3;
+    plugged.device.colour().faults.errorBit = 3;
     readFrames(camera, 16);
-    CHECK(device.colour().faults.errorBit == 0);
+    CHECK(plugged.device.colour().faults.errorBit == 0);
     CHECK(camera.lostColour() >= before + 2);
     CHECK(log.count("colour frames are missing") == (before == 0 ? 1u : 0u)); // logged once
     CHECK(camera.lost() == depth);
@@ -69,53 +63,44 @@ TEST_CASE(
 TEST_CASE(
     "A truncated frame and one with the error bit are skipped and counted when the driver passes them") {
     const NoDrop noDrop;
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    CameraRequest request = plugged.request();
     request.everyFrame = true; // no newer frame hides a damaged one
     V4l2Camera camera(request);
     readFrames(camera, 2);
-    device.depth().faults.cutShort = 1;
+    plugged.device.depth().faults.cutShort = 1;
     readFrames(camera, 8); // more than the driver has buffers
     CHECK(camera.skipped() == 1);
-    device.depth().faults.errorBit = 1;
+    plugged.device.depth().faults.errorBit = 1;
     readFrames(camera, 8);
     CHECK(camera.skipped() == 2);
 }
 
 TEST_CASE("A camera whose frames are all damaged counts as lost, and is used again when they are whole") {
     const NoDrop noDrop;
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    CameraRequest request = plugged.request();
     request.silence = 0.4;
     V4l2Camera camera(request);
     readFrames(camera, 2);
-    device.depth().faults.errorBit = 1000000;
+    plugged.device.depth().faults.errorBit = 1000000;
     std::string loss;
     while (loss.empty()) {
         loss = lossOf(camera);
     }
     CHECK(loss.find("frames arrive, but none is usable; last: the driver marks it as damaged") !=
           std::string::npos);
-    device.depth().faults.errorBit = 0;
+    plugged.device.depth().faults.errorBit = 0;
     readFrames(camera, 2);
 }
 
 TEST_CASE("A frame bit that does not change costs one frame") {
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    const auto camera = plugged.open();
     readFrames(*camera, 2);
-    device.depth().faults.sameToggle = 1;
+    plugged.device.depth().faults.sameToggle = 1;
     readFrames(*camera, 5);
-    CHECK(device.depth().faults.sameToggle == 0);
+    CHECK(plugged.device.depth().faults.sameToggle == 0);
 }
 
 TEST_CASE(
@@ -155,37 +140,31 @@ TEST_CASE(
 }
 
 TEST_CASE("A silent stream is restarted, and is lost when that does not help") {
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    CameraRequest request = plugged.request();
     request.silence = 0.4;
     V4l2Camera camera(request);
     readFrames(camera, 2);
-    device.depth().faults.silent = true;
-    std::thread wake([&device] {
+    plugged.device.depth().faults.silent = true;
+    std::thread wake([&plugged] {
         std::this_thread::sleep_for(std::chrono::milliseconds(600));
-        device.depth().faults.silent = false;
+        plugged.device.depth().faults.silent = false;
     });
     readFrames(camera, 2); // after a restart
     wake.join();
-    device.depth().faults.silent = true;
+    plugged.device.depth().faults.silent = true;
     CHECK_THROWS_AS(readFrames(camera, 5), DeviceLost);
-    device.depth().faults.silent = false;
+    plugged.device.depth().faults.silent = false;
     readFrames(camera, 1); // opened again
 }
 
 TEST_CASE("A silent colour stream with running depth is restarted once, not with each depth frame") {
-    UvcCamera device({});
-    device.plug();
-    REQUIRE(waitForCamera());
-    const IntrinsicsFile lens(320, 240);
-    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    PluggedCamera plugged({});
+    CameraRequest request = plugged.request();
     request.silence = 0.4;
     V4l2Camera camera(request);
     readFrames(camera, 2);
-    device.colour().faults.silent = true;
+    plugged.device.colour().faults.silent = true;
     std::string loss;
     while (loss.empty()) {
         loss = lossOf(camera);
@@ -193,6 +172,6 @@ TEST_CASE("A silent colour stream with running depth is restarted once, not with
     CHECK(loss.find("no frame for") != std::string::npos);
     CHECK(camera.restarts() == 1);
     CHECK(camera.skipped() > 5); // depth came all the time, and found no colour
-    device.colour().faults.silent = false;
+    plugged.device.colour().faults.silent = false;
     readFrames(camera, 2); // opened again
 }

@@ -48,6 +48,23 @@ inline std::unique_ptr<V4l2Camera> openLive(const std::string& options) {
     return std::make_unique<V4l2Camera>(parseCameraRequest("v4l2:auto" + options));
 }
 
+// A simulated camera, plugged in and found by the kernel, and the file of its lens.
+struct PluggedCamera {
+    explicit PluggedCamera(const UvcCameraOptions& options)
+        : device(options)
+        , lens(options.width, options.height) {
+        device.plug();
+        REQUIRE(waitForCamera(options.colour));
+    }
+    CameraRequest request() const {
+        return parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    }
+    std::unique_ptr<V4l2Camera> open() const { return std::make_unique<V4l2Camera>(request()); }
+
+    UvcCamera device;
+    IntrinsicsFile lens;
+};
+
 // The error message; empty when the camera opens.
 inline std::string cameraRefusal(const std::string& text) {
     return testing::refusalOf<std::exception>([&] { V4l2Camera camera(parseCameraRequest(text)); });

@@ -67,11 +67,8 @@ TEST_CASE("A live camera delivers depth and colour as they were sent, stamped wi
 }
 
 TEST_CASE("Frames held by the engine leave the driver two buffers; later frames are copies") {
-    UvcCamera device({.colour = false});
-    device.plug();
-    REQUIRE(waitForCamera(false));
-    const IntrinsicsFile lens(320, 240);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.colour = false});
+    const auto camera = plugged.open();
     std::vector<Frame> held;
     for (int i = 0; i < 4; ++i) {
         auto frame = camera->next();
@@ -89,14 +86,11 @@ TEST_CASE("Frames held by the engine leave the driver two buffers; later frames 
 }
 
 TEST_CASE("After a pause the camera gives a current frame, not a buffered one") {
-    UvcCamera device({});
-    device.plug();
-    REQUIRE(waitForCamera());
-    const IntrinsicsFile lens(320, 240);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged({});
+    const auto camera = plugged.open();
     REQUIRE(camera->next());
     std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // 45 frames; the driver buffers four
-    const uint32_t sent = device.depth().sent;
+    const uint32_t sent = plugged.device.depth().sent;
     const auto frame = camera->next();
     REQUIRE(frame);
     CHECK((*frame)->depth[0] + 2u >= sent);
@@ -104,11 +98,8 @@ TEST_CASE("After a pause the camera gives a current frame, not a buffered one") 
 }
 
 TEST_CASE("INZI depth is read in place behind the infrared plane, for any stride of the driver") {
-    UvcCamera device({.depthFormat = UvcFormat::Inzi});
-    device.plug();
-    REQUIRE(waitForCamera());
-    const IntrinsicsFile lens(320, 240);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged({.depthFormat = UvcFormat::Inzi});
+    const auto camera = plugged.open();
     for (int i = 0; i < 5; ++i) {
         const auto frame = camera->next();
         REQUIRE(frame);
@@ -120,11 +111,9 @@ TEST_CASE("INZI depth is read in place behind the infrared plane, for any stride
 }
 
 TEST_CASE("Motion JPEG colour is decoded") {
-    UvcCamera device({.width = 64, .height = 48, .motionJpeg = true, .paintColour = redAndBlueJpeg(64, 48)});
-    device.plug();
-    REQUIRE(waitForCamera());
-    const IntrinsicsFile lens(64, 48);
-    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    PluggedCamera plugged(
+        {.width = 64, .height = 48, .motionJpeg = true, .paintColour = redAndBlueJpeg(64, 48)});
+    const auto camera = plugged.open();
     for (int i = 0; i < 3; ++i) {
         const auto frame = camera->next();
         REQUIRE(frame);
