@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/cover_cache.h"
 
+#include "engine/model/mesh_file.h"
 #include "engine/types/cache_folder.h"
 #include "engine/types/printed.h"
 #include "engine/types/read_file.h"
@@ -21,7 +22,6 @@ namespace {
 
 constexpr const char* kHeader = "fathom cover 4"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
-constexpr size_t kLargestMesh = 512u << 20;
 
 // Fowler-Noll-Vo, 64 bits; two of them with different starts make a key.
 uint64_t hashOf(std::string_view bytes, uint64_t start) {

@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kMinExtent = 1e-3, kMaxExtent = 10.0; // [m]
 constexpr double kUnlikelyExtent = 2.0; // [m] for tools and links: 80 mm stored in inches would read as 3.1
-constexpr uintmax_t kLargestMesh = 512u << 20;
 constexpr size_t kMaxTriangles = 2'000'000;
 
 std::string metres(double v) {

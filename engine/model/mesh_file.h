@@ -10,6 +10,8 @@
 
 namespace fathom {
 
+inline constexpr size_t kLargestMesh = 512u << 20; // [bytes] of a file
+
 // Properties that a mesh file does not state.
 struct MeshOptions {
     std::optional<double> scale; // metres per file unit, on top of the unit that a .dae declares; empty = 1
