@@ -7,7 +7,6 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
