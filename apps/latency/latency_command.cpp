@@ -9,6 +9,7 @@
 #include "apps/output/try_output.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/printed.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -64,7 +65,8 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
     }
     if (request.soakMinutes > 0.0) {
         const bool holds = !parts.empty() && soakHolds(parts.back(), options.seconds);
-        std::cout << "soak         " << (holds ? "kept" : "MISSED") << ": asked are " << options.seconds
+        std::cout << "soak         " << (holds ? "kept" : "MISSED") << ": asked are "
+                  << printed("%.1f", options.seconds)
                   << " s, no frame or record lost, memory grown by at most " << kMaxGrowth << " MiB\n";
         return holds ? 0 : 1;
     }
