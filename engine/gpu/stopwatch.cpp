@@ -6,7 +6,9 @@
 namespace fathom::gpu {
 
 uint64_t stampsBetween(uint64_t from, uint64_t to, uint32_t bits) noexcept {
-    return (to - from) & (bits < 64 ? (uint64_t{1} << bits) - 1 : ~uint64_t{0});
+    const uint64_t range = bits < 64 ? (uint64_t{1} << bits) - 1 : ~uint64_t{0};
+    const uint64_t counts = (to - from) & range;
+    return counts <= range / 2 ? counts : 0;
 }
 
 Stopwatch::Stopwatch(const Device& device, uint32_t marks)

@@ -6,7 +6,8 @@
 
 namespace fathom::gpu {
 
-// Counts from one timestamp to a later one, of counters that begin again at 0 after 2^bits.
+// Counts from one timestamp to a later one, of counters that begin again at 0 after 2^bits. 0 if `to` is the
+// earlier one: a device may take markReached() before an earlier mark(), which waits for more.
 uint64_t stampsBetween(uint64_t from, uint64_t to, uint32_t bits) noexcept;
 
 // The marks of one submission. Reset on the host, so that the reset does not count in the frame's time.

@@ -110,6 +110,14 @@ TEST_CASE("An interval of timestamps is right where the counter begins again at 
     CHECK(vulkan().device.facts().timestampBits > 0);
 }
 
+TEST_CASE("Timestamps that a device takes in another order than recorded are 0 apart") {
+    CHECK(gpu::stampsBetween(1000, 999, 64) == 0);
+    CHECK(gpu::stampsBetween(5, uint64_t{0} - 4, 64) == 0); // the same where the counter begins again
+    CHECK(gpu::stampsBetween(1000, 900, 36) == 0);
+    const uint64_t longest = (uint64_t{1} << 35) - 1;
+    CHECK(gpu::stampsBetween(0, longest, 36) == longest);
+}
+
 TEST_CASE("Images with more texels than a device reads from a buffer are refused with both numbers") {
     DeviceFacts facts; // the least that Vulkan guarantees
     facts.name = "small device";
