@@ -55,7 +55,9 @@ void main() {
         counters[i] = initialValue(i);
     }
     if (i < listed.length()) {
-        if (kTree != 0u && listed[i] == 0u) {
+        // listed.length() also counts the words that pad the buffer
+        bool isPatch = i < tree.levels[1].x * tree.levels[1].y;
+        if (kTree != 0u && isPatch && listed[i] == 0u) {
             emptyNode(i);
         }
         setListed[i] = listed[i];

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the region tree with the validator and the float64 twin.
 #include "apps/verify/pass_agreement.h"
+#include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <set>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -95,6 +97,32 @@ TEST_CASE("A set without spheres has an empty root, and old data of unlisted pat
         CHECK(rig.tree().back()[0].radius < 0.0);
         checkTree(rig, none);
     }
+}
+
+TEST_CASE("A frame writes no node beyond those of its tree") {
+    constexpr uint32_t kMark = 7;
+    const CameraInfo camera = pinholeCamera(16, 16); // one patch, with padding behind its mark and its nodes
+    CloudRig rig(plainScene(), camera, withTreeByPatch);
+    std::set<const gpu::Buffer*> marked;
+    for (int frame = 0; frame < 8; ++frame) { // each set of the pool comes again
+        checkTree(rig, rig.run(drawnImage(camera, [](int, int) { return 0.0; })));
+        const gpu::Buffer& buffer = rig.set().device.nodeCounts;
+        if (marked.insert(&buffer).second) {
+            gpu::Commands commands(vulkan().device);
+            const gpu::Timeline timeline(vulkan().device);
+            commands.begin();
+            commands.fill(buffer, kMark);
+            commands.end();
+            vulkan().device.submit(commands.handle(), {}, {timeline.handle(), 1});
+            timeline.wait(1);
+            continue;
+        }
+        const auto counts = verify::readBack<uint32_t>(vulkan().device, buffer);
+        REQUIRE(counts.size() > rig.layout().nodes());
+        CHECK(std::all_of(counts.begin() + static_cast<std::ptrdiff_t>(rig.layout().nodes()), counts.end(),
+                          [](uint32_t count) { return count == kMark; }));
+    }
+    CHECK(marked.size() < 8);
 }
 
 TEST_CASE("Without a GPU query no tree is built, but its nodes are counted") {
