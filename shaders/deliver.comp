@@ -36,15 +36,18 @@ void emptyNode(uint patchIndex) {
 }
 
 // True in the group that finishes last, which sees the nodes that all groups wrote. Called by the whole
-// group.
+// group. barrier() orders shared memory only. So the invocation that counts has its own memory barriers next
+// to the atomic, which release the nodes of its whole group, and all have one after the last barrier().
 bool finishesLast() {
     memoryBarrierBuffer();
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
+        memoryBarrierBuffer();
         groupsBefore = atomicAdd(counters[kDeliveredWord], 1u);
         memoryBarrierBuffer();
     }
     barrier();
+    memoryBarrierBuffer();
     return groupsBefore == gl_NumWorkGroups.x - 1u;
 }
 
