@@ -97,7 +97,7 @@ void PanelBackend::restart(const Once& once) {
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 #else
     (void)once;
-    ImGui_ImplVulkan_CreateFontsTexture(); // submits and waits by itself
+    device_.withDrawQueue([] { ImGui_ImplVulkan_CreateFontsTexture(); }); // submits and waits by itself
 #endif
 }
 

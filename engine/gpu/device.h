@@ -76,6 +76,12 @@ public:
     // Serialised vkQueueSubmit and vkQueuePresentKHR on the graphics queue. The caller handles the result of
     // present().
     void submitDrawing(const VkSubmitInfo& submit, VkFence fence);
+    // Calls `use` while no other thread uses the graphics queue: for a library that submits to it by itself.
+    template <class Use>
+    void withDrawQueue(Use&& use) {
+        const std::lock_guard lock(sharesQueue() ? queueMutex_ : drawMutex_);
+        use();
+    }
     VkResult present(const VkPresentInfoKHR& info);
     // Waits until the graphics queue is idle, presentation included. Call before destroying objects that it
     // uses.

@@ -8,11 +8,13 @@
 #include "tests/support/vulkan.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <string>
+#include <thread>
 #include <vector>
 
 using namespace fathom;
@@ -213,6 +215,34 @@ TEST_CASE("A pipeline is compiled once, and pipelines in use are never dropped")
     CHECK_FALSE(there(2)); // the least recently used one was dropped
     CHECK(there(2 + gpu::PipelineStore::kMax));
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
+}
+
+TEST_CASE("No thread submits to the graphics queue while a library has it for itself") {
+    gpu::Device device(vulkan().instance, vulkan().device.facts().name, gpu::Drawing::Offscreen);
+    gpu::Commands commands(device);
+    commands.begin();
+    commands.end();
+    const gpu::Timeline timeline(device);
+    std::atomic<bool> drawn = false, passed = false;
+    std::thread draws, passes;
+    device.withDrawQueue([&] {
+        draws = std::thread([&] {
+            device.submitDrawing({.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO}, VK_NULL_HANDLE);
+            drawn = true;
+        });
+        passes = std::thread([&] {
+            device.submit(commands.handle(), {}, {timeline.handle(), 1});
+            passed = true;
+        });
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        CHECK_FALSE(drawn);
+        CHECK_FALSE((passed && device.sharesQueue()));
+    });
+    draws.join();
+    passes.join();
+    timeline.wait(1);
+    device.waitForDrawing();
+    CHECK((drawn && passed));
 }
 
 TEST_CASE("The software device gets two threads per processor on two processors, and its default elsewhere") {
