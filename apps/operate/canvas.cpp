@@ -95,15 +95,14 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
         onDevice_->painter->redraw();
     }
     if (onDevice_ && !window_.minimised()) {
-        const auto never = [] {
-            return false;
-        }; // a screenshot shows this frame, whatever else the device has to do
+        const auto never = [] { return false; };
+        if (console.requests.screenshot) { // of this frame, whatever else the device has to do
+            onDevice_->painter->awaitFrame();
+        }
         onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(),
                                  console.requests.screenshot ? never : busy);
     }
-    if (std::exchange(console.requests.screenshot, false)) {
-        shoot(console);
-    }
+    console.requests.screenshot = console.requests.screenshot && !shoot(console);
     if (scale_ != console.status.drawnScale) {
         scale_ = console.status.drawnScale;
         fonts_ = loadFonts(scale_);
@@ -118,17 +117,18 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
 
 std::unique_ptr<Image> Canvas::frameImage(const Console& console) {
     const int below = captionHeight(static_cast<int>(window_.size().width), console.status.caption.size());
-    std::unique_ptr<Image> image = onDevice_ ? onDevice_->painter->frameImage(below) : nullptr;
+    const bool drawn = onDevice_ && !window_.minimised(); // else finishFrame() drew nothing
+    std::unique_ptr<Image> image = drawn ? onDevice_->painter->frameImage(below) : nullptr;
     if (image) {
         drawCaption(*image, image->height() - below, console.status.caption);
     }
     return image;
 }
 
-void Canvas::shoot(Console& console) {
+bool Canvas::shoot(Console& console) {
     if (!onDevice_) {
         console.notify("no screenshot: the GPU is lost");
-        return;
+        return true;
     }
     // Offscreen, programs expect the same name every time.
     const auto stem =
@@ -139,8 +139,7 @@ void Canvas::shoot(Console& console) {
         std::filesystem::create_directories(shots_, ignored);
         const std::unique_ptr<Image> image = frameImage(console);
         if (!image) {
-            console.notify("no screenshot: nothing is drawn yet");
-            return;
+            return false;
         }
         image->writePng(file);
         ++console.status.shots;
@@ -150,6 +149,7 @@ void Canvas::shoot(Console& console) {
     } catch (const Error& e) {
         console.notify(e.what());
     }
+    return true;
 }
 
 } // namespace fathom::operate

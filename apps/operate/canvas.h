@@ -25,12 +25,13 @@ public:
     void drop(); // destroys all device objects; keeps counts, fonts and pending requests
     bool isOpen() const { return onDevice_ != nullptr; }
 
-    // Draws the open ImGui frame over the layers, then handles requests for screenshots and font size.
-    // Without a device the frame is discarded. Throws DeviceFailed: call drop().
+    // Draws the open ImGui frame over the layers, then handles requests for screenshots and font size. If the
+    // frame is not drawn, a screenshot waits for the next one. Without a device the frame is discarded.
+    // Throws DeviceFailed: call drop().
     void finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy);
 
-    // The last drawn frame, with the lines of console.status.caption under it. Null: nothing was drawn, or
-    // there is no device. Throws DeviceFailed: call drop().
+    // The frame of the last finishFrame(), with the lines of console.status.caption under it. Null: it was
+    // not drawn, or there is no device. Throws DeviceFailed: call drop().
     std::unique_ptr<Image> frameImage(const Console& console);
 
     const Fonts& fonts() const { return fonts_; }
@@ -42,8 +43,8 @@ public:
     Counts counts() const;
 
 private:
-    struct OnDevice; // surface, swapchain, painter
-    void shoot(Console& console);
+    struct OnDevice;              // surface, swapchain, painter
+    bool shoot(Console& console); // false: this frame was not drawn
 
     Window& window_;
     const gpu::Instance& instance_;

@@ -138,9 +138,13 @@ bool Painter::yields(const std::function<bool()>& busy) {
 bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
                    const std::function<bool()>& busy) {
     constexpr uint64_t kPatience = 20'000'000; // [ns]
-    if (!finished(kPatience) || (!host_ && yields(busy))) {
-        return false;
-    }
+    current_ = false;
+    current_ = finished(kPatience) && (host_ || !yields(busy)) && drawNow(size, layers, data);
+    counts_.drawn += current_ ? 1 : 0;
+    return current_;
+}
+
+bool Painter::drawNow(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data) {
     if (swapchain_ != nullptr) {
         if (!swapchain_->fit(size)) {
             return false;
@@ -152,7 +156,6 @@ bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* d
     if (host_) {
         host_->draw(size, layers, *data);
         if (latest_.filled && !host_->changed() && (latest_.shown || swapchain_ == nullptr)) {
-            ++counts_.drawn;
             return true;
         }
     }
@@ -170,7 +173,6 @@ bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* d
         latest_.remade = swapchain_->remade();
         latest_.shown = true;
     }
-    ++counts_.drawn;
     return true;
 }
 

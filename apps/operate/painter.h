@@ -43,8 +43,10 @@ public:
     // shown again, but counts as drawn.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
-    // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: nothing was drawn
-    // yet.
+    // Waits for the last frame, so that the next draw() does not skip for it.
+    void awaitFrame();
+    // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: the last draw()
+    // drew nothing.
     std::unique_ptr<Image> frameImage(int below);
 
     void redraw() { latest_.shown = false; } // the surface has lost its content
@@ -64,7 +66,7 @@ private:
     Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade);
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
-    void awaitFrame();                // throws DeviceFailed when it does not finish
+    bool drawNow(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data);
     bool yields(const std::function<bool()>& busy);
     void stage(std::span<const Layer> layers);
     void record(std::span<const Layer> layers, ImDrawData* data, VkImage shown);
@@ -87,6 +89,7 @@ private:
     FrameTexture target_;
     std::array<Staged, kMaxLayers> staged_;
     bool inFlight_ = false; // a submission may still be running
+    bool current_ = false;  // target_ has the frame of the last draw()
     struct {
         bool filled = false; // target_ has a frame of the CPU
         bool shown = false;  // the surface shows target_

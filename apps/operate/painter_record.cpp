@@ -114,7 +114,7 @@ void Painter::recordToSurface(VkImage shown) {
 }
 
 std::unique_ptr<Image> Painter::frameImage(int below) {
-    if (!target_) {
+    if (!current_) {
         return nullptr;
     }
     const VkExtent2D size = target_.size();

@@ -67,10 +67,10 @@ struct FailingWindow {
     testing::LaidScreen laid;
     std::optional<Painter> painter;
 
-    FailingWindow() {
+    explicit FailingWindow(Painter::By drawer = Painter::By::Device) {
         laid.loadFontsFor({kSize.width, kSize.height}, 1.0);
         laid.draw();
-        painter.emplace(instance, device, nullptr, Painter::By::Device);
+        painter.emplace(instance, device, nullptr, drawer);
         REQUIRE(draws(kSize));
     }
     bool draws(VkExtent2D size) {
@@ -123,4 +123,29 @@ TEST_CASE("A screenshot waits for a frame that takes long, and never records ove
     CHECK_THROWS_WITH_AS(window.painter->frameImage(0),
                          "the window: the device did not finish a frame within 10 s", DeviceFailed);
     CHECK(window.painter->frameImage(0));
+}
+
+TEST_CASE("A frame that was skipped has no image, not the one of the frame before") {
+    for (const auto drawer : {Painter::By::Device, Painter::By::Cpu}) {
+        CAPTURE((drawer == Painter::By::Cpu));
+        FailingWindow window(drawer);
+        window.fail("unfinished"); // the frame before
+        const uint64_t drawn = window.painter->drawn();
+        CHECK_FALSE(window.draws(kSize));
+        CHECK(window.painter->drawn() == drawn);
+        CHECK_FALSE(window.painter->frameImage(0));
+        window.painter->awaitFrame(); // longer than draw() does
+        REQUIRE(window.draws(kSize));
+        CHECK(window.painter->drawn() == drawn + 1);
+        CHECK(window.painter->frameImage(0));
+    }
+}
+
+TEST_CASE(
+    "A screenshot that is requested while the frame before still runs waits for it and is not skipped") {
+    FailingWindow window;
+    window.painter->awaitFrame();
+    window.fail("unfinished");
+    CHECK(window.draws(kSize));                     // there is nothing left to wait for
+    CHECK(std::filesystem::remove(window.trigger)); // it was there: no wait asked for it
 }
