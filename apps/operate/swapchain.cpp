@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/swapchain.h"
 
+#include "apps/operate/surface_choices.h"
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
 
@@ -29,18 +30,12 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     throw Error("the window's surface offers no 8-bit format that this device can copy to");
 }
 
-// The window paces itself. A software device copies whole images, so Immediate does not tear and needs no
-// thread that waits for the display.
-VkPresentModeKHR chooseMode(const gpu::Device& device, VkSurfaceKHR surface) {
+std::vector<VkPresentModeKHR> modesOf(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr),
-          "present modes");
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr), "present modes");
     std::vector<VkPresentModeKHR> modes(count);
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()),
-          "present modes");
-    const bool can = std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_IMMEDIATE_KHR) != modes.end();
-    return can && device.facts().kind == DeviceKind::Cpu ? VK_PRESENT_MODE_IMMEDIATE_KHR
-                                                         : VK_PRESENT_MODE_FIFO_KHR;
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data()), "present modes");
+    return modes;
 }
 
 } // namespace
@@ -128,7 +123,8 @@ bool Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.preTransform = can.currentTransform;
     info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-    info.presentMode = chooseMode(device_, surface_);
+    info.presentMode =
+        chooseMode(modesOf(device_.physical(), surface_), device_.facts().kind, device_.sharesQueue());
     info.clipped = VK_TRUE;
     info.oldSwapchain = handle_;
     destroyImages();
