@@ -2,8 +2,25 @@
 #include "apps/operate/surface_choices.h"
 
 #include <algorithm>
+#include <array>
 
 namespace fathom::operate {
+
+std::optional<VkSurfaceFormatKHR> chooseFormat(std::span<const VkSurfaceFormatKHR> offered,
+                                               const std::function<bool(VkFormat)>& canCopyTo) {
+    constexpr std::array kFormats = {
+        std::array{VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM},
+        std::array{VK_FORMAT_A2R10G10B10_UNORM_PACK32, VK_FORMAT_A2B10G10R10_UNORM_PACK32}};
+    for (const auto& accepted : kFormats) {
+        for (const VkSurfaceFormatKHR& f : offered) {
+            if (std::ranges::find(accepted, f.format) != accepted.end() &&
+                f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR && canCopyTo(f.format)) {
+                return f;
+            }
+        }
+    }
+    return std::nullopt;
+}
 
 VkPresentModeKHR chooseMode(std::span<const VkPresentModeKHR> offered, DeviceKind kind, bool sharesQueue) {
     const auto has = [&](VkPresentModeKHR mode) { return std::ranges::find(offered, mode) != offered.end(); };

@@ -13,21 +13,21 @@ using gpu::check;
 
 namespace {
 
-// The images already contain display values, so any 8-bit format without sRGB conversion is accepted.
-VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
+VkSurfaceFormatKHR formatFor(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "surface formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()), "surface formats");
-    for (const VkSurfaceFormatKHR& f : formats) {
+    const auto format = chooseFormat(formats, [&](VkFormat f) {
         VkFormatProperties can;
-        vkGetPhysicalDeviceFormatProperties(device, f.format, &can);
-        if ((f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) &&
-            (can.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0) {
-            return f;
-        }
+        vkGetPhysicalDeviceFormatProperties(device, f, &can);
+        return (can.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0;
+    });
+    if (!format) {
+        throw Error("the window's surface offers no format of 8 or 10 bits per channel that this device can "
+                    "copy to");
     }
-    throw Error("the window's surface offers no 8-bit format that this device can copy to");
+    return *format;
 }
 
 std::vector<VkPresentModeKHR> modesOf(VkPhysicalDevice device, VkSurfaceKHR surface) {
@@ -56,7 +56,7 @@ void Swapchain::moveTo(VkSurfaceKHR next) {
     if (shows == VK_FALSE) {
         throw Error("device " + device_.facts().name + " cannot present to this window");
     }
-    format_ = chooseFormat(device_.physical(), next);
+    format_ = formatFor(device_.physical(), next);
     surface_ = next;
     surfaceLost_ = false;
 }

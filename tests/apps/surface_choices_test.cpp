@@ -22,3 +22,20 @@ TEST_CASE("A device with one queue presents without waiting for the display, if 
         CHECK(chooseMode(Modes{kFifo, kMailbox}, DeviceKind::Cpu, sharesQueue) == kFifo);
     }
 }
+
+TEST_CASE(
+    "A display with 10 bits per channel is used if it offers none with 8, and never one that converts") {
+    using Formats = std::vector<VkSurfaceFormatKHR>;
+    constexpr auto kSrgb = VK_COLOR_SPACE_SRGB_NONLINEAR_KHR;
+    constexpr VkSurfaceFormatKHR kEight{VK_FORMAT_B8G8R8A8_UNORM, kSrgb},
+        kTen{VK_FORMAT_A2R10G10B10_UNORM_PACK32, kSrgb}, kConverts{VK_FORMAT_B8G8R8A8_SRGB, kSrgb},
+        kWide{VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_COLOR_SPACE_HDR10_ST2084_EXT};
+    const auto chosen = [](const Formats& offered, VkFormat without = VK_FORMAT_UNDEFINED) {
+        const auto format = chooseFormat(offered, [&](VkFormat f) { return f != without; });
+        return format ? format->format : VK_FORMAT_UNDEFINED;
+    };
+    CHECK(chosen({kTen, kConverts, kEight}) == kEight.format);
+    CHECK(chosen({kConverts, kTen}) == kTen.format);
+    CHECK(chosen({kTen, kEight}, kEight.format) == kTen.format); // the device cannot copy to the other
+    CHECK(chosen({kConverts, kWide}) == VK_FORMAT_UNDEFINED);
+}
