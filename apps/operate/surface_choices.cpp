@@ -32,4 +32,20 @@ VkPresentModeKHR chooseMode(std::span<const VkPresentModeKHR> offered, DeviceKin
                : VK_PRESENT_MODE_FIFO_KHR;
 }
 
+VkExtent2D chooseSize(const VkSurfaceCapabilitiesKHR& offered, VkExtent2D wanted) {
+    if (offered.currentExtent.width != UINT32_MAX) {
+        return offered.currentExtent;
+    }
+    const VkExtent2D least = offered.minImageExtent, most = offered.maxImageExtent;
+    return {std::clamp(wanted.width, least.width, most.width),
+            std::clamp(wanted.height, least.height, most.height)};
+}
+
+VkCompositeAlphaFlagBitsKHR chooseAlpha(VkCompositeAlphaFlagsKHR offered) {
+    const VkCompositeAlphaFlagsKHR lowest = offered & (~offered + 1);
+    return (offered & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
+               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
+               : static_cast<VkCompositeAlphaFlagBitsKHR>(lowest);
+}
+
 } // namespace fathom::operate

@@ -21,4 +21,10 @@ std::optional<VkSurfaceFormatKHR> chooseFormat(std::span<const VkSurfaceFormatKH
 // images, so Immediate does not tear and needs no thread that waits for the display.
 VkPresentModeKHR chooseMode(std::span<const VkPresentModeKHR> offered, DeviceKind kind, bool sharesQueue);
 
+// Of the images: the surface's own size, else the wanted one within its limits. 0 x 0 where it is minimised.
+VkExtent2D chooseSize(const VkSurfaceCapabilitiesKHR& offered, VkExtent2D wanted);
+
+// Opaque, else any other: the images have no transparency.
+VkCompositeAlphaFlagBitsKHR chooseAlpha(VkCompositeAlphaFlagsKHR offered);
+
 } // namespace fathom::operate

@@ -30,12 +30,14 @@ VkSurfaceFormatKHR formatFor(VkPhysicalDevice device, VkSurfaceKHR surface) {
     return *format;
 }
 
-std::vector<VkPresentModeKHR> modesOf(VkPhysicalDevice device, VkSurfaceKHR surface) {
+VkPresentModeKHR modeFor(const gpu::Device& device, VkSurfaceKHR surface) {
     uint32_t count = 0;
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr), "present modes");
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr),
+          "present modes");
     std::vector<VkPresentModeKHR> modes(count);
-    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data()), "present modes");
-    return modes;
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()),
+          "present modes");
+    return chooseMode(modes, device.facts().kind, device.sharesQueue());
 }
 
 } // namespace
@@ -99,8 +101,7 @@ bool Swapchain::fit(VkExtent2D wanted) {
               "surface capabilities")) {
         return false;
     }
-    const bool free = can.currentExtent.width == UINT32_MAX;
-    const VkExtent2D size = free ? wanted : can.currentExtent;
+    const VkExtent2D size = chooseSize(can, wanted);
     if (size.width == 0 || size.height == 0) {
         return false;
     }
@@ -122,9 +123,8 @@ bool Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     info.imageArrayLayers = 1;
     info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     info.preTransform = can.currentTransform;
-    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-    info.presentMode =
-        chooseMode(modesOf(device_.physical(), surface_), device_.facts().kind, device_.sharesQueue());
+    info.compositeAlpha = chooseAlpha(can.supportedCompositeAlpha);
+    info.presentMode = modeFor(device_, surface_);
     info.clipped = VK_TRUE;
     info.oldSwapchain = handle_;
     destroyImages();

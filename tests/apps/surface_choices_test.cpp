@@ -2,6 +2,7 @@
 #include "apps/operate/surface_choices.h"
 
 #include <doctest/doctest.h>
+#include <utility>
 #include <vector>
 
 using namespace fathom;
@@ -38,4 +39,29 @@ TEST_CASE(
     CHECK(chosen({kConverts, kTen}) == kTen.format);
     CHECK(chosen({kTen, kEight}, kEight.format) == kTen.format); // the device cannot copy to the other
     CHECK(chosen({kConverts, kWide}) == VK_FORMAT_UNDEFINED);
+}
+
+TEST_CASE("A surface without a size of its own gets the window's, within the surface's limits") {
+    VkSurfaceCapabilitiesKHR can{};
+    can.minImageExtent = {64, 32};
+    can.maxImageExtent = {1000, 2000};
+    const auto chosen = [&](uint32_t width, uint32_t height) {
+        const VkExtent2D size = chooseSize(can, {width, height});
+        return std::pair(size.width, size.height);
+    };
+    can.currentExtent = {640, 480};
+    CHECK(chosen(800, 600) == std::pair(640u, 480u));
+    can.currentExtent = {UINT32_MAX, UINT32_MAX};
+    CHECK(chosen(800, 600) == std::pair(800u, 600u));
+    CHECK(chosen(1200, 600) == std::pair(1000u, 600u));
+    CHECK(chosen(50, 20) == std::pair(64u, 32u));
+}
+
+TEST_CASE("Images are opaque where the surface can be, else composed in a way that it supports") {
+    constexpr VkCompositeAlphaFlagsKHR kOpaque = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR,
+                                       kAfter = VK_COMPOSITE_ALPHA_POST_MULTIPLIED_BIT_KHR,
+                                       kInherit = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    CHECK(chooseAlpha(kOpaque | kInherit) == kOpaque);
+    CHECK(chooseAlpha(kAfter | kInherit) == kAfter);
+    CHECK(chooseAlpha(kInherit) == kInherit);
 }
