@@ -83,24 +83,43 @@ Canvas::Counts Canvas::counts() const {
     return all;
 }
 
+void Canvas::draw(const Console& console, bool newSwapchain, std::span<const Layer> layers,
+                  const std::function<bool()>& busy) {
+    OnDevice& on = *onDevice_;
+    if (newSwapchain && on.swapchain) {
+        on.swapchain->lose();
+    }
+    if (on.swapchain && on.swapchain->surfaceLost()) {
+        on.renewSurface(window_, instance_);
+    }
+    if (window_.takeExposed()) {
+        on.painter->redraw();
+    }
+    if (window_.minimised()) {
+        return;
+    }
+    const auto never = [] { return false; };
+    if (console.requests.screenshot) { // of this frame, whatever else the device has to do
+        on.painter->awaitFrame();
+    }
+    on.painter->draw(window_.size(), layers, ImGui::GetDrawData(),
+                     console.requests.screenshot ? never : busy);
+}
+
 void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy) {
     ImGui::Render();
-    if (std::exchange(console.requests.newSwapchain, false) && onDevice_ && onDevice_->swapchain) {
-        onDevice_->swapchain->lose();
-    }
-    if (onDevice_ && onDevice_->swapchain && onDevice_->swapchain->surfaceLost()) {
-        onDevice_->renewSurface(window_, instance_);
-    }
-    if (onDevice_ && window_.takeExposed()) {
-        onDevice_->painter->redraw();
-    }
-    if (onDevice_ && !window_.minimised()) {
-        const auto never = [] { return false; };
-        if (console.requests.screenshot) { // of this frame, whatever else the device has to do
-            onDevice_->painter->awaitFrame();
+    const bool newSwapchain = std::exchange(console.requests.newSwapchain, false);
+    try {
+        if (onDevice_) {
+            draw(console, newSwapchain, layers, busy);
         }
-        onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(),
-                                 console.requests.screenshot ? never : busy);
+    } catch (const DeviceFailed&) {
+        throw;
+    } catch (const Error& e) { // what has drawn once may draw again when it is opened again
+        if (counts().drawn == 0) {
+            throw;
+        }
+        throw DeviceFailed(e.what());
     }
     console.requests.screenshot = console.requests.screenshot && !shoot(console);
     if (scale_ != console.status.drawnScale) {

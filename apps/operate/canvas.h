@@ -43,8 +43,10 @@ public:
     Counts counts() const;
 
 private:
-    struct OnDevice;              // surface, swapchain, painter
-    bool shoot(Console& console); // false: this frame was not drawn
+    struct OnDevice; // surface, swapchain, painter
+    void draw(const Console& console, bool newSwapchain, std::span<const Layer> layers,
+              const std::function<bool()>& busy); // needs a device
+    bool shoot(Console& console);                 // false: this frame was not drawn
 
     Window& window_;
     const gpu::Instance& instance_;

@@ -46,8 +46,11 @@ void loseSurface() {
     lost.insert(newest);
 }
 
-bool isLost(VkSurfaceKHR surface) {
-    return lost.count(surface) != 0;
+VkResult refusalOf(VkSurfaceKHR surface) {
+    if (lost.count(surface) != 0) {
+        return VK_ERROR_SURFACE_LOST_KHR;
+    }
+    return askedFor("window-used") ? VK_ERROR_NATIVE_WINDOW_IN_USE_KHR : VK_SUCCESS;
 }
 
 void forget(VkSurfaceKHR surface) {

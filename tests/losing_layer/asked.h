@@ -12,9 +12,9 @@ VkResult lossOf();               // the result that a lost device returns
 bool askedFor(const char* call); // whether the file names this call; removes the file then
 
 // A lost surface gets no images until it is destroyed.
-void hasImages(VkSurfaceKHR surface); // marks it as the newest surface with images
-void loseSurface();                   // loses the newest surface
-bool isLost(VkSurfaceKHR surface);
+void hasImages(VkSurfaceKHR surface);     // marks it as the newest surface with images
+void loseSurface();                       // loses the newest surface
+VkResult refusalOf(VkSurfaceKHR surface); // why it gets no images; VK_SUCCESS: it does
 void forget(VkSurfaceKHR surface);
 
 } // namespace losing

@@ -10,8 +10,8 @@
 //                        (submission with a timeline), drawing (other submission) and presenting lose the
 //                        device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR once,
 //                        waiting VK_ERROR_OUT_OF_HOST_MEMORY, allocating VK_ERROR_OUT_OF_DEVICE_MEMORY;
-//                        unfinished ends a wait for drawing as if its time had passed; surface is lost from
-//                        the next presentation on
+//                        unfinished ends a wait for drawing as if its time had passed; window-used refuses a
+//                        swapchain as if another had the window; surface is lost from the next presentation
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
@@ -234,8 +234,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchai
                                                const VkAllocationCallbacks* memory,
                                                VkSwapchainKHR* swapchain) {
     const std::lock_guard lock(mutex);
-    if (isLost(info->surface)) {
-        return VK_ERROR_SURFACE_LOST_KHR;
+    if (const VkResult refusal = refusalOf(info->surface); refusal != VK_SUCCESS) {
+        return refusal;
     }
     hasImages(info->surface);
     return devices[keyOf(device)].createSwapchain(device, info, memory, swapchain);

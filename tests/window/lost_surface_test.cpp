@@ -41,3 +41,23 @@ TEST_CASE("Images and surfaces of the window that are lost, in any call and repe
     CHECK_MESSAGE(code == 0, rig.output());
     CHECK(rig.output().find("validation:") == std::string::npos);
 }
+
+TEST_CASE("A window that gets no new images for once is opened again on the device, and does not end") {
+    const TemporaryFolder folder;
+    const std::filesystem::path trigger = folder.path() / "lose";
+    const Losing losing(trigger.string(), 0);
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    folder.write("word", "window-used");
+    std::filesystem::rename(folder.path() / "word", trigger);
+    const json before = rig.state();
+    rig.key("ctrl+F11");
+    REQUIRE(rig.await([&](const json& s) {
+        return !std::filesystem::exists(trigger) && s["gpu"]["made_anew"] == 1 && s["gpu"]["there"] == true &&
+               s["window"]["frames"] > before["window"]["frames"].get<int>() + 5;
+    }));
+    CHECK(rig.shoot("window-used").share(rig.place("camera"), isRed) > 0.01);
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+    CHECK(rig.output().find("validation:") == std::string::npos);
+}
