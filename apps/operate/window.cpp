@@ -6,6 +6,7 @@
 #include "engine/gpu/result.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -34,6 +35,26 @@ VkExtent2D sizeFrom(const std::string& text) {
     return size;
 }
 
+// Prefers X, which every desktop offers: Wayland does not report that a window is minimised, and a minimised
+// window must have no forces. GLFW before 3.4 has X only.
+bool openDisplay() {
+#ifdef GLFW_PLATFORM
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+    if (glfwInit() == GLFW_TRUE) {
+        return true;
+    }
+    glfwInitHint(GLFW_PLATFORM, GLFW_ANY_PLATFORM);
+    const bool open = glfwInit() == GLFW_TRUE;
+    if (open) {
+        log::warn("no X display (XWayland): a minimised window keeps its forces, because Wayland does not "
+                  "report it");
+    }
+    return open;
+#else
+    return glfwInit() == GLFW_TRUE;
+#endif
+}
+
 [[noreturn]] void refuseDisplay() {
     const char* display = std::getenv("DISPLAY");
     const char* why = nullptr;
@@ -51,7 +72,7 @@ Window::Window(const std::string& offscreen, const std::string& title) {
     if (!offscreen.empty()) {
         offscreen_ = sizeFrom(offscreen);
     } else {
-        if (glfwInit() != GLFW_TRUE) {
+        if (!openDisplay()) {
             refuseDisplay();
         }
         create(title);
