@@ -70,7 +70,7 @@ void bindFormats(py::module_& module) {
     py::enum_<DepthFormat>(module, "DepthFormat", "Values of depth images.")
         .value("UINT16", DepthFormat::Uint16, "uint16; times metres_per_unit is the distance; 0 = none")
         .value("METRES", DepthFormat::Metres,
-               "float32 [m]; not positive, not finite or beyond 6.5535 m = none");
+               "float32 [m]; not positive, not finite, or beyond 6.5535 m and the scene's camera.far = none");
     py::enum_<ColourFormat>(module, "ColourFormat", "Bytes of colour images.")
         .value("NONE", ColourFormat::None)
         .value("RGB", ColourFormat::Rgb, "uint8, shape (height, width, 3)")

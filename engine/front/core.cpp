@@ -29,7 +29,7 @@ ReaderOptions readerOf(const v0::EngineOptions& given) {
 
 CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
     : model(given)
-    , delivered(internal(given))
+    , delivered(internal(given, scene.farZ))
     , decimation(scene.decimation)
     , info(decimated(delivered, decimation)) {
     if (scene.beam) {

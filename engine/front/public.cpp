@@ -92,6 +92,12 @@ Intrinsics internal(const v0::Intrinsics& lens, const std::string& place, const 
     return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};
 }
 
+// The unit [m] to which depth in metres is rounded: 0.1 mm, or the least multiple whose 16 bits reach farZ.
+double floatUnit(double farZ) {
+    constexpr double kFinest = 0.0001, kReach = 65535.0 * kFinest;
+    return kFinest * std::max(1.0, std::ceil(farZ / kReach));
+}
+
 // A unit quaternion stays the same to the last bit.
 Pose normalised(Pose pose) {
     dquat& q = pose.rotation;
@@ -143,15 +149,14 @@ v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& or
     return out;
 }
 
-CameraInfo internal(const v0::CameraModel& model) {
-    constexpr double kFloatUnit = 0.0001; // [m] to which depth in metres is rounded
+CameraInfo internal(const v0::CameraModel& model, double farZ) {
     const std::string place = "camera " + model.name;
     CameraInfo info;
     info.depth = internal(model.depth, place, "depth");
     info.registered = !model.colour.has_value();
     info.colour = model.colour ? internal(*model.colour, place, "colour") : info.depth;
     info.colourTdepth = info.registered ? Pose{} : normalised(internal(model.colourTdepth));
-    info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
+    info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? floatUnit(farZ) : model.metresPerUnit;
     info.hasColour = model.colourFormat != v0::ColourFormat::None;
     info.colourFormat = formatOf(model.colourFormat);
     checkKnown(place, "depthFormat", model.depthFormat, v0::DepthFormat::Metres, "Uint16 or Metres");

@@ -53,8 +53,9 @@ v0::Step external(const StepRecord& record) noexcept;
 // origin: of the set [m], base frame.
 v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& origin);
 
-// Throws v0::BadInput for a description that no camera can have.
-CameraInfo internal(const v0::CameraModel& model);
+// farZ: camera.far [m], which depth in metres must reach. Throws v0::BadInput for a description that no
+// camera can have.
+CameraInfo internal(const v0::CameraModel& model, double farZ);
 
 // Runs `make` and turns internal exceptions into public ones.
 template <class Make>

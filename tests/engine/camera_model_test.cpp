@@ -111,6 +111,47 @@ TEST_CASE("A pose between the lenses protects the same whatever the length of it
     }
 }
 
+TEST_CASE("Depth in metres is protected up to camera.far, and in units of 0.1 mm if they reach that far") {
+    const auto regionsOf = [](const std::string& farZ, float metres, bool floats) {
+        const Scene scene = Scene::fromText("camera: { near: 0.1, far: " + farZ +
+                                            " }\nerror_budget: 0\n"
+                                            "fixtures: [{ name: wall, role: forbidden, radius: 0.5 }]\n"
+                                            "tool: { spheres: [[0, 0, 0, 0.01]] }\n");
+        CameraModel model = smallCamera();
+        model.depthFormat = floats ? DepthFormat::Metres : DepthFormat::Uint16;
+        model.metresPerUnit = 0.0001;
+        Lockstep lockstep(scene, model, startAt(0.05));
+        const std::vector<float> depth(80 * 60, metres);
+        const std::vector<std::uint16_t> raw(80 * 60, static_cast<std::uint16_t>(1e4f * metres + 0.5f));
+        Frame frame;
+        frame.depth = floats ? static_cast<const void*>(depth.data()) : raw.data();
+        frame.stamp = 1;
+        lockstep.process(frame);
+        Regions regions;
+        lockstep.regions(regions);
+        return regions;
+    };
+    for (const auto& [farZ, metres] : {std::pair("10", 9.99f), {"100", 99.0f}, {"10000", 9990.0f}}) {
+        const Regions regions = regionsOf(farZ, metres, true);
+        CAPTURE(farZ);
+        REQUIRE_FALSE(regions.spheres.empty());
+        const double z = regions.origin[2] + double{regions.spheres.front().centre[2]};
+        CHECK(z == doctest::Approx(metres).epsilon(1e-4));
+    }
+    CHECK(regionsOf("100", 101.0f, true).spheres.empty());
+    for (const auto& [farZ, metres] : {std::pair("3", 0.61237f), {"6.5535", 6.5535f}}) {
+        const auto floats = regionsOf(farZ, metres, true).spheres,
+                   raw = regionsOf(farZ, metres, false).spheres;
+        CAPTURE(farZ);
+        REQUIRE_FALSE(raw.empty());
+        REQUIRE(floats.size() == raw.size());
+        for (size_t i = 0; i < raw.size(); ++i) {
+            CHECK(floats[i].centre == raw[i].centre);
+            CHECK(floats[i].radius == raw[i].radius);
+        }
+    }
+}
+
 TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no depth, no colour") {
     std::mutex mutex;
     std::string lines;

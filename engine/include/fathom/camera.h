@@ -17,8 +17,9 @@ namespace fathom::v0 {
 enum class DepthFormat {
     Uint16, ///< one value times CameraModel::metresPerUnit is the distance along the optical axis; 0 = no
             ///< measurement
-    Metres  ///< float [m], rounded to 0.1 mm. Zero, negative, not finite or beyond 6.5535 m = no measurement:
-            ///< such points are not protected
+    Metres  ///< float [m], rounded to 0.1 mm if the scene's `camera.far` is at most 6.5535 m. Otherwise the
+    ///< unit is the least multiple of 0.1 mm whose 65535 steps reach `camera.far`. Zero, negative, not
+    ///< finite or beyond 65535 steps = no measurement: such points are not protected
 };
 
 /// Format of colour images: rows without gaps, from the top left pixel.
