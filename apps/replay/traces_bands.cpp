@@ -5,17 +5,28 @@
 #include "apps/replay/traces_style.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom::traces {
 
 namespace {
 
+constexpr double kFrameTick = 8.0; // [pixels] height of the mark of a new frame
+
 struct Span {
     double from, to; // [pixels] in x
 };
 
-// Spans of the bins that satisfy `chosen`, at least one pixel wide. Spans that touch are merged, so that
-// translucent paint is applied once.
+// Spans that touch are merged, so that translucent paint is applied once.
+void append(std::vector<Span>& spans, const Span& next) {
+    if (!spans.empty() && next.from <= spans.back().to + 0.5) {
+        spans.back().to = std::max(spans.back().to, next.to);
+    } else {
+        spans.push_back(next);
+    }
+}
+
+// Spans of the bins that satisfy `chosen`, at least one pixel wide.
 template <class Chosen>
 std::vector<Span> spansOf(const std::vector<TraceBin>& bins, const PlotAxis& time, Chosen chosen) {
     std::vector<Span> spans;
@@ -25,14 +36,48 @@ std::vector<Span> spansOf(const std::vector<TraceBin>& bins, const PlotAxis& tim
         }
         const double end = i + 1 < bins.size() ? bins[i + 1].begin : bins[i].end;
         const double from = time.at(bins[i].begin);
-        const double to = std::min(std::max(time.at(end), from + 1.0), time.to);
-        if (!spans.empty() && from <= spans.back().to + 0.5) {
-            spans.back().to = std::max(spans.back().to, to);
-        } else {
-            spans.push_back({from, to});
-        }
+        append(spans, {from, std::min(std::max(time.at(end), from + 1.0), time.to)});
     }
     return spans;
+}
+
+// Where the tool escaped or was trapped.
+struct Alarms {
+    std::vector<Span> spans;   // most ticks of each column
+    std::vector<double> marks; // x of a few ticks, which as a span would look like all of their neighbours
+};
+
+// By columns of a pixel, because a column may hold many ticks and a tick may be many columns wide.
+Alarms alarmsOf(const std::vector<TraceBin>& bins, const PlotAxis& time) {
+    constexpr double kNarrow = 6.0; // [pixels] narrower spans have no room for a hatch
+    Alarms alarms;
+    for (size_t i = 0; i < bins.size();) {
+        const double from = time.at(bins[i].begin), column = std::floor(from);
+        uint32_t alarmed = 0, ticks = 0;
+        for (; i < bins.size() && std::floor(time.at(bins[i].begin)) == column; ++i) {
+            alarmed += bins[i].in(StepState::Escape) + bins[i].in(StepState::Trapped);
+            ticks += bins[i].ticks;
+        }
+        const double end = time.at(i < bins.size() ? bins[i].begin : bins.back().end);
+        const double to = std::min(std::max(end, from + 1.0), time.to);
+        if (2 * alarmed > ticks) {
+            append(alarms.spans, {from, to});
+        } else if (alarmed > 0) {
+            alarms.marks.push_back(0.5 * (from + to));
+        }
+    }
+    std::erase_if(alarms.spans, [&](const Span& span) {
+        const bool narrow = span.to - span.from < kNarrow;
+        if (narrow) {
+            alarms.marks.push_back(0.5 * (span.from + span.to));
+        }
+        return narrow;
+    });
+    return alarms;
+}
+
+void alarmMark(const Image& image, double x, double bottom) {
+    image.box(x - 0.8, bottom - 14.0, 1.6, 14.0, kAlarm);
 }
 
 void fill(const Image& image, const std::vector<Span>& spans, const Panel& panel, Colour colour,
@@ -70,6 +115,16 @@ double entry(const Image& image, double x, const std::string& words, Swatch swat
     swatch(x, kLegendBase - 13.0, kSwatch, 16.0);
     image.text(x + kSwatch + kGap, kLegendBase, words, 15.0, kInk);
     return x + kSwatch + kGap + image.textWidth(words, 15.0) + kApart;
+}
+
+// Likewise, of a mark that occurs many times.
+template <class Mark>
+double marksEntry(const Image& image, double x, const std::string& words, Mark mark) {
+    return entry(image, x, words, [&](double left, double top, double w, double h) {
+        for (double k : {0.2, 0.5, 0.8}) {
+            mark(left + k * w, top + 0.5 * h);
+        }
+    });
 }
 
 } // namespace
@@ -110,14 +165,16 @@ BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotA
         return bin.in(StepState::Contact) + bin.in(StepState::Escape) > 0;
     });
     const auto guidance = spansOf(bins, time, [](const TraceBin& bin) { return bin.guidance > 0.0; });
-    const auto alarm = spansOf(bins, time, [](const TraceBin& bin) {
-        return bin.in(StepState::Escape) + bin.in(StepState::Trapped) > 0;
-    });
+    const Alarms alarms = alarmsOf(bins, time);
     fill(image, idle, panel, kIdle.alpha(0.16), false);
     fill(image, contact, panel, kContact.alpha(0.20), false);
     fill(image, guidance, panel, kGuidance.alpha(0.13), false);
-    fill(image, alarm, panel, kAlarm.alpha(0.10), true);
-    return {!contact.empty(), !guidance.empty(), !alarm.empty(), !idle.empty(), false};
+    fill(image, alarms.spans, panel, kAlarm.alpha(0.10), true);
+    for (const double x : alarms.marks) {
+        alarmMark(image, x, panel.bottom - kFrameTick);
+    }
+    return {!contact.empty(),      !guidance.empty(), !alarms.spans.empty(),
+            !alarms.marks.empty(), !idle.empty(),     false};
 }
 
 void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time) {
@@ -154,7 +211,8 @@ bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotA
     }
     for (const TraceBin& bin : history.bins()) {
         if (bin.newFrames > 0) {
-            image.box(time.at(bin.begin) - 0.6, panel.bottom - 8.0, 1.2, 8.0, kQuietInk.alpha(0.8));
+            image.box(time.at(bin.begin) - 0.6, panel.bottom - kFrameTick, 1.2, kFrameTick,
+                      kQuietInk.alpha(0.8));
         }
     }
     return true;
@@ -185,13 +243,14 @@ void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool
     band(seen.contact, "in contact", kContact.alpha(0.28), false);
     band(seen.guidance, "guidance on", kGuidance.alpha(0.20), false);
     band(seen.alarm, "escaping or trapped", kAlarm.alpha(0.12), true);
+    if (seen.brief) {
+        x = marksEntry(image, x, seen.alarm ? "briefly" : "briefly escaping or trapped",
+                       [&](double at, double middle) { alarmMark(image, at, middle + 8.0); });
+    }
     band(seen.idle, "off or fading", kIdle.alpha(0.22), false);
     if (frameTicks) {
-        x = entry(image, x, "new frame", [&](double left, double top, double w, double h) {
-            for (double k : {0.2, 0.5, 0.8}) {
-                image.box(left + k * w, top + 0.5 * h, 1.2, 8.0, kQuietInk);
-            }
-        });
+        x = marksEntry(image, x, "new frame",
+                       [&](double at, double middle) { image.box(at, middle, 1.2, 8.0, kQuietInk); });
     }
     if (limits) {
         entry(image, x, "limit", [&](double left, double top, double w, double h) {

@@ -16,7 +16,9 @@ struct Panel {
 
 // What occurs in a run; the legend lists only this.
 struct BandsSeen {
-    bool contact = false, guidance = false, alarm = false, idle = false;
+    bool contact = false, guidance = false, alarm = false;
+    bool brief = false; // an alarm of a few ticks
+    bool idle = false;
     bool residual = false; // of the wrench, not a band
 };
 

@@ -168,6 +168,41 @@ TEST_CASE("The force trace follows the scale of its axis over 1 s and 1 h, and o
     }
 }
 
+TEST_CASE("Escapes of single ticks are marks at the axis, and only a part that escapes most of the time is "
+          "hatched") {
+    const ScratchFolder folder;
+    for (const int count : {1000, 17960, 400000}) { // of many columns per tick, and many ticks per column
+        CAPTURE(count);
+        TraceHistory history;
+        for (int i = 0; i < count; ++i) {
+            const bool single = i % 40 == 0, trapped = i > count * 8 / 10 && i < count * 9 / 10;
+            const bool escape = single && i > count / 10 && i < count / 2;
+            history.add(tickAt(i, 8.0,
+                               trapped  ? StepState::Trapped
+                               : escape ? StepState::Escape
+                                        : StepState::Contact));
+        }
+        const auto path = folder.path() / ("traces" + std::to_string(count) + ".png");
+        writeTraces(path, history, {"title", "subtitle", 20.0, 2.0});
+        const PngImage image(path);
+        const auto redPixels = [&](double from, double to, int top, int bottom) { // of shares of the run
+            const double wide = traces::kRight - traces::kLeft;
+            int found = 0;
+            for (int u = static_cast<int>(traces::kLeft + from * wide); u < traces::kLeft + to * wide; ++u) {
+                for (int v = top; v < bottom; ++v) {
+                    found += image.red(u, v) > image.blue(u, v) + 90 && image.red(u, v) > 180 ? 1 : 0;
+                }
+            }
+            return found;
+        };
+        const int top = static_cast<int>(traces::kForceTop), bottom = static_cast<int>(traces::kForceBottom);
+        CHECK(redPixels(0.12, 0.48, top, bottom - 40) == 0);
+        CHECK(redPixels(0.12, 0.48, bottom - 40, bottom) > 100);
+        CHECK(redPixels(0.52, 0.78, top, bottom) == 0);
+        CHECK(redPixels(0.82, 0.88, top, bottom - 40) > 1000);
+    }
+}
+
 TEST_CASE("An empty run, a run of zeros and a run of NaN give an image without a trace") {
     const ScratchFolder folder;
     TraceHistory zeros, nothing;
