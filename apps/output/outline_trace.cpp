@@ -153,4 +153,20 @@ std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int widt
     return lines;
 }
 
+// A rim of one pixel makes the edge of the image a border like any other.
+std::vector<OutlineLine> traceArea(const std::vector<uint8_t>& mask, int width, int height) {
+    const auto across = static_cast<size_t>(width), wide = across + 2;
+    std::vector<uint8_t> rimmed(wide * (static_cast<size_t>(height) + 2));
+    for (size_t v = 0; v < static_cast<size_t>(height); ++v) {
+        std::copy_n(mask.data() + v * across, across, rimmed.data() + (v + 1) * wide + 1);
+    }
+    std::vector<OutlineLine> lines = traceOutline(rimmed, width + 2, height + 2, 0);
+    for (OutlineLine& line : lines) {
+        for (glm::dvec2& p : line) {
+            p -= 1.0;
+        }
+    }
+    return lines;
+}
+
 } // namespace fathom

@@ -221,20 +221,36 @@ RegionMasks regionMasks(const ImageView& view, const HostFixtures& set) {
     return masks;
 }
 
-std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres) {
+namespace {
+
+// trace(mask, width, height) of the spheres, only for the part around them: a tool covers a few per cent of
+// an image.
+template <class Trace>
+std::vector<OutlineLine> around(const ImageView& view, std::span<const Sphere> spheres, Trace trace) {
     Silhouette silhouette(view);
     for (const Sphere& sphere : spheres) {
         silhouette.add(sphere.centre, sphere.radius);
     }
-    // Only the part around them: a tool covers a few per cent of an image.
     const Silhouette::Box box = silhouette.covered();
-    std::vector<OutlineLine> lines = traceOutline(silhouette.mask(box), box.width(), box.height(), 0);
+    std::vector<OutlineLine> lines = trace(silhouette.mask(box), box.width(), box.height());
     for (OutlineLine& line : lines) {
         for (glm::dvec2& p : line) {
             p += glm::dvec2(box.u0, box.v0);
         }
     }
     return lines;
+}
+
+} // namespace
+
+std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres) {
+    return around(view, spheres, [](const std::vector<uint8_t>& mask, int width, int height) {
+        return traceOutline(mask, width, height, 0);
+    });
+}
+
+std::vector<OutlineLine> areaOf(const ImageView& view, std::span<const Sphere> spheres) {
+    return around(view, spheres, traceArea);
 }
 
 } // namespace fathom

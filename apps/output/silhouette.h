@@ -66,7 +66,11 @@ using OutlineLine = std::vector<glm::dvec2>; // [pixels], corners of pixels, smo
 // The borders of a mask as lines between pixels, with the inside to the right. A line ends at the edge of the
 // image; all others are closed (first point = last point). Skips borders shorter than `least` pixels.
 std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int width, int height, size_t least);
+// As traceOutline(), but all lines are closed, along the edge of the image too: borders of an area to fill.
+std::vector<OutlineLine> traceArea(const std::vector<uint8_t>& mask, int width, int height);
 // The outline of spheres whose centres are in the base frame.
 std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres);
+// The borders of the area that they cover, all closed.
+std::vector<OutlineLine> areaOf(const ImageView& view, std::span<const Sphere> spheres);
 
 } // namespace fathom

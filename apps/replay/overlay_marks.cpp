@@ -105,11 +105,12 @@ void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
     for (const Sphere& leaf : leaves) {
         spheres.push_back({pose.apply(leaf.centre), leaf.radius});
     }
-    tracePath(canvas, outlineOf(canvas.view, spheres));
-    if (!dashed) {
+    if (!dashed) { // the outline of a tool that leaves the image is open
+        tracePath(canvas, areaOf(canvas.view, spheres));
         canvas.image.setColour(kTool.alpha(0.16));
-        cairo_fill_preserve(canvas.image.cr());
+        cairo_fill(canvas.image.cr());
     }
+    tracePath(canvas, outlineOf(canvas.view, spheres));
     strokeOnShade(canvas, kTool, dashed ? 1.8 : 2.4, dashed);
 }
 

@@ -260,3 +260,37 @@ TEST_CASE("The outline of spheres is the border of their mask, also at the edges
         }
     }
 }
+
+TEST_CASE("The tint of a tool that leaves the image covers the tool in the image, and nothing else") {
+    const ScratchFolder folder;
+    Drawn scene;
+    fill(scene);
+    scene.input.set = nullptr;
+    std::vector<Sphere>
+        leaves; // a link that enters through the upper edge, turns, and leaves through the lower
+    for (int i = 0; i <= 40; ++i) {
+        leaves.push_back({{0.003 * std::abs(i - 20) - 0.53, 0.012 * (i - 20), 0.0}, 0.02});
+    }
+    scene.input.leaves = leaves;
+    scene.input.tick.tool.position = scene.input.tick.device.position = {0.5, 0.0, 0.5}; // has a mark
+    writeOverlay(folder.path() / "overlay.png", scene.input);
+    const PngImage image(folder.path() / "overlay.png");
+    const ImageView view = imageView(scene.set.camera, Pose{}, true, 960);
+    const int plain = image.red(900, 60);
+    uint64_t wrong = 0, tinted = 0;
+    for (int v = 12; v < view.height() - 12; v += 7) {
+        for (int u = 12; u < view.width() - 12; u += 7) {
+            const auto near = [&](double more) { // inside the tool made larger by `more`
+                return std::any_of(leaves.begin(), leaves.end(), [&](const Sphere& s) {
+                    return hits(view, u, v, s.centre + scene.input.tick.tool.position, s.radius + more);
+                });
+            };
+            const bool inside = near(-0.004), outside = !near(0.006);
+            wrong +=
+                (inside && image.red(u, v) < plain + 20) || (outside && image.red(u, v) > plain + 8) ? 1 : 0;
+            tinted += inside ? 1 : 0;
+        }
+    }
+    CHECK(tinted > 300);
+    CHECK(wrong == 0);
+}
