@@ -26,6 +26,15 @@ TEST_CASE("The help of an option names the words that it accepts") {
     CHECK(runFathom({"spheres", "--help"}).out.find("{x,y,z}") != std::string::npos);
 }
 
+TEST_CASE("The help of each subcommand says where the options of every subcommand are") {
+    for (const char* command : {"replay", "operate", "guard", "plan", "profile"}) {
+        CAPTURE(command);
+        const std::string help = runFathom({command, "--help"}).out;
+        CHECK(help.find("\nOptions of every subcommand, such as --device and --verbose: fathom --help\n") !=
+              std::string::npos);
+    }
+}
+
 TEST_CASE("A wrong command line is rejected in one line that says what is wrong with it") {
     checkRefusedArguments({"--out", "X", "replay", "a.yaml"},
                           "fathom: replay: --out: before the subcommand (allowed: after it: fathom replay");
