@@ -84,6 +84,11 @@ void runOperate(OperateOptions& options, const GlobalOptions& global) {
     if (std::filesystem::is_directory(options.scene)) {
         options.recording = options.recording.empty() ? options.scene.string() : options.recording;
         options.scene /= "scene.yaml";
+        if (!std::filesystem::exists(options.scene)) {
+            throw BadInput(options.recording, "scene.yaml", "none",
+                           "a scene file, or a folder that the window recorded; other recordings are opened "
+                           "by operate SCENE --recording FOLDER");
+        }
     }
     checkJob(options.job);
     for (const auto& [name, value] :

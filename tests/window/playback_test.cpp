@@ -183,6 +183,7 @@ TEST_CASE("An input that is not a recording is rejected in one line with exit co
     CHECK(none.exitCode == 2);
     REQUIRE(none.errorLines().size() == 1);
     CHECK(none.errorLines()[0].find("scene.yaml") != std::string::npos);
+    CHECK(none.errorLines()[0].find("operate SCENE --recording FOLDER") != std::string::npos);
     writeRecording(folder.path() / "recording", {bumpImage()});
     folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n0,0,0,0,1,0,0,0,0\n");
     folder.write("recording/scene.yaml", SceneText{}.text());
