@@ -60,8 +60,9 @@ bool openDisplay() {
     const char* why = nullptr;
     glfwGetError(&why);
     std::string value = display != nullptr ? "DISPLAY=" + std::string(display) : "DISPLAY is not set";
-    if (why != nullptr) {
+    if (why != nullptr) { // some end with a space
         value += ", " + std::string(why);
+        value.erase(value.find_last_not_of(' ') + 1);
     }
     throw BadInput("operate", "display", value, "a display that can be opened, or --offscreen WxH");
 }

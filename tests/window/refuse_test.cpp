@@ -20,13 +20,14 @@ ProgramRun withDisplay(const char* display, const std::vector<std::string>& word
 } // namespace
 
 TEST_CASE("Without a display, operate reports it in one line and exits with code 2") {
-    for (const char* display : {static_cast<const char*>(nullptr), ":987"}) {
+    for (const char* display : {static_cast<const char*>(nullptr), "", ":987"}) {
         const ProgramRun run =
             withDisplay(display, {"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe"});
         CHECK(run.exitCode == 2);
         REQUIRE(run.errorLines().size() == 1);
         CHECK(run.errorLines()[0].find("operate: display: ") != std::string::npos);
         CHECK(run.errorLines()[0].find("--offscreen") != std::string::npos);
+        CHECK(run.errorLines()[0].find("  ") == std::string::npos);
     }
 }
 
