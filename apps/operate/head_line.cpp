@@ -142,7 +142,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
             "Time since the camera took the image whose regions act now; while it is red, forces fade",
             stale ? colour::kWarning : colour::kText});
     figure(console, input.fonts,
-           {printed("%u", record.contactCount), "contacts", "Regions that push the tool now",
+           {printed("%u", record.contactCount), "contacts", "Contact points that push the tool now",
             record.contactCount > 0 ? colour::kTouch : colour::kText});
     figure(console, input.fonts,
            {clearanceText(record.clearance), "clearance",

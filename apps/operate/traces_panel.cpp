@@ -79,7 +79,7 @@ void TracesPanel::drawCurves(Console& console, const HudInput& input) {
     markPlace(console, "events");
     markPlace(console, "traces", corner, room);
     explain(console,
-            "Events of these ten seconds. Short marks: a new fixture set. Red lines: late ticks. Triangles: "
+            "Events of these ten seconds. Short marks: a new fixture set. Red lines: late ticks. Bars: "
             "guidance, and states with their names.");
 }
 
