@@ -18,7 +18,8 @@ v0::LogCallback logCallback;
 void log::write(Level level, fmt::string_view format, fmt::format_args values) {
     const std::lock_guard lock(logMutex);
     if (logCallback) {
-        logCallback(static_cast<v0::LogLevel>(level), printable(fmt::vformat(format, values)));
+        const Level known = level == Level::Progress ? Level::Info : level;
+        logCallback(static_cast<v0::LogLevel>(known), printable(fmt::vformat(format, values)));
     }
 }
 

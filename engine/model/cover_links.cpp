@@ -37,7 +37,7 @@ public:
         const auto now = Clock::now().time_since_epoch().count();
         auto due = due_.load();
         if (now >= due && done < all_ && due_.compare_exchange_strong(due, now + kEvery)) {
-            log::warn("{}", coverProgressText(done, all_, kept, cache_.folder()));
+            log::progress("{}", coverProgressText(done, all_, kept, cache_.folder()));
         }
     }
 

@@ -7,8 +7,8 @@
 
 namespace fathom::log {
 
-// Severity of a line.
-enum class Level { Debug, Info, Warning, Error };
+// Severity of a line. Progress: Info that is shown without --verbose, of work that keeps the user waiting.
+enum class Level { Debug, Info, Warning, Error, Progress };
 
 // Any thread except the haptic one: formats a text, takes the logger's lock and writes.
 void write(Level level, fmt::string_view format, fmt::format_args values);
@@ -21,6 +21,10 @@ void debug(fmt::format_string<Values...> format, Values&&... values) {
 template <class... Values>
 void info(fmt::format_string<Values...> format, Values&&... values) {
     write(Level::Info, format, fmt::make_format_args(values...));
+}
+template <class... Values>
+void progress(fmt::format_string<Values...> format, Values&&... values) {
+    write(Level::Progress, format, fmt::make_format_args(values...));
 }
 template <class... Values>
 void warn(fmt::format_string<Values...> format, Values&&... values) {
