@@ -146,6 +146,8 @@ Study feelStudy(const StudyContext& context) {
     Study study;
     study.name = "feel";
     study.title = "Feel: error of the felt surface and ripple of the force against time from camera to force";
+    study.labels =
+        "11x11 s10mm: filter.radius 5, filter.sigma 10 mm; budget: error_budget; memory: filter.memory";
     study.verified = "class bits and points of a frame of every setting against the float64 twins, 20 um";
     study.errorName = "distance of the felt surface from the true one, RMS";
     study.errorUnit = "mm";

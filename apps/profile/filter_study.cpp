@@ -212,6 +212,7 @@ void addSource(const StudyContext& context, Study& study, const FrameSequence& s
 Study filterStudy(const StudyContext& context) {
     Study study;
     study.name = "filter";
+    study.labels = "11x11 s10mm: filter.radius 5, filter.sigma 10 mm";
     study.title = "Filter: depth error against time of the surface pass";
     study.verified = "class bits and points of a frame against the float64 twins, 20 um";
     const bool recorded = !context.settings.source.empty();

@@ -3,6 +3,7 @@
 
 #include "apps/profile/panel_frame.h"
 #include "engine/types/angle.h"
+#include "engine/types/pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -67,27 +68,31 @@ private:
         filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
     }
 
-    // A line in the order of the points, or the front as steps, because nothing between two settings was
-    // measured.
-    void paintLine(const PlotSeries& series, Colour colour) const {
+    // Corners of a line in the order of the points, or of the front as steps, because nothing between two
+    // settings was measured. [pixels]
+    std::vector<glm::dvec2> lineOf(const PlotSeries& series) const {
         std::vector<PlotPoint> points = series.points;
         if (!series.connect) {
             std::erase_if(points, [](const PlotPoint& q) { return !q.isFront; });
             std::ranges::sort(points, {}, &PlotPoint::x);
         }
+        std::vector<glm::dvec2> corners;
+        for (const PlotPoint& q : points) {
+            const glm::dvec2 corner(frame_.x(q.x), frame_.y(q.y));
+            if (!series.connect && !corners.empty()) {
+                corners.emplace_back(corner.x, corners.back().y);
+            }
+            corners.push_back(corner);
+        }
+        return corners;
+    }
+
+    void paintLine(const PlotSeries& series, Colour colour) const {
         p_.setColour(colour.alpha(series.connect ? 0.9 : 0.55));
         cairo_set_line_width(p_.cr(), series.connect ? 2.2 : 3.0);
         setDash(series.dash);
-        for (size_t i = 0; i < points.size(); ++i) {
-            const double x = frame_.x(points[i].x), y = frame_.y(points[i].y);
-            if (i == 0) {
-                cairo_move_to(p_.cr(), x, y);
-                continue;
-            }
-            if (!series.connect) {
-                cairo_line_to(p_.cr(), x, frame_.y(points[i - 1].y));
-            }
-            cairo_line_to(p_.cr(), x, y);
+        for (const glm::dvec2& corner : lineOf(series)) {
+            cairo_line_to(p_.cr(), corner.x, corner.y);
         }
         cairo_stroke(p_.cr());
         setDash(0.0);
@@ -110,16 +115,29 @@ private:
         }
     }
 
-    // Points on the front and defaults get their label places first. Where there are many points, the others
-    // have no label: the table names them.
-    void paintLabels() const {
+    // What no label may cover: the points and the lines.
+    std::vector<PlotBox> obstacles() const {
         std::vector<PlotBox> taken;
-        std::vector<LabelRequest> all, requests;
-        std::vector<const PlotPoint*> points;
         for (const PlotSeries& s : panel_.series) {
             for (const PlotPoint& q : s.points) {
                 const double r = q.isDefault ? 10.0 : 4.0, x = frame_.x(q.x), y = frame_.y(q.y);
                 taken.push_back({x - r, y - r, x + r, y + r});
+            }
+            const std::vector<glm::dvec2> corners = lineOf(s);
+            for (size_t i = 1; i < corners.size(); ++i) {
+                addLine(corners[i - 1], corners[i], taken);
+            }
+        }
+        return taken;
+    }
+
+    // Points on the front and defaults get their label places first. Where there are many points, the others
+    // have no label: the table names them.
+    void paintLabels() const {
+        std::vector<LabelRequest> all, requests;
+        std::vector<const PlotPoint*> points;
+        for (const PlotSeries& s : panel_.series) {
+            for (const PlotPoint& q : s.points) {
                 if (!q.label.empty()) {
                     points.push_back(&q);
                 }
@@ -140,7 +158,7 @@ private:
             requests.push_back(all[i]);
         }
         const auto places =
-            placeLabels(requests, {box_.x0, box_.y0 - 12.0, box_.x1 + 14.0, box_.y1}, std::move(taken));
+            placeLabels(requests, {box_.x0, box_.y0 - 12.0, box_.x1 + 14.0, box_.y1}, obstacles());
         for (size_t i = 0; i < distinct.size(); ++i) {
             paintLabel(*points[distinct[i]], requests[i], places[i]);
         }
@@ -154,7 +172,7 @@ private:
         if (!place.beside) { // line to the nearer end of the text
             const bool right = place.x >= request.x;
             frame_.line(request.x, request.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
-                        kFaint.alpha(0.5), 0.8);
+                        kFaint.alpha(0.8), 0.9);
         }
         const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
         words(place.x, place.y, request.text, colour, q.isDefault);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <optional>
 
 namespace fathom::profile {
@@ -11,6 +13,9 @@ namespace {
 
 constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
 constexpr double kTouching = 10.0;                            // [pixels] centre distance of two touching dots
+// [pixels] between labels of one row, and around one that a line leads to
+constexpr double kApart = 6.0;
+constexpr double kLevel = 4.0; // [pixels] of a line's end above the text's baseline
 constexpr int kDirections = 24;
 
 LabelPlace placeAt(const LabelRequest& request, double x, double y, bool beside) {
@@ -46,7 +51,8 @@ std::optional<LabelPlace> placeOff(const LabelRequest& request, const PlotBox& r
                          y = request.y + ring * std::sin(angle);
             const LabelPlace place =
                 placeAt(request, std::cos(angle) < 0.0 ? x - request.width : x, y, false);
-            if (isFree(place.box, room, taken)) {
+            const auto& [x0, y0, x1, y1] = place.box;
+            if (isFree({x0 - kApart, y0 - kApart, x1 + kApart, y1 + kApart}, room, taken)) {
                 return place;
             }
         }
@@ -71,6 +77,18 @@ std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests) {
     return kept;
 }
 
+void addLine(glm::dvec2 a, glm::dvec2 b, std::vector<PlotBox>& taken) {
+    constexpr double kPart = 8.0, kHalf = 3.0;      // [pixels] length of a part, half the width of the line
+    const bool straight = a.x == b.x || a.y == b.y; // one box is enough
+    const int parts = straight ? 1 : static_cast<int>(std::ceil(glm::distance(a, b) / kPart));
+    for (int i = 0; i < parts; ++i) {
+        const glm::dvec2 from = glm::mix(a, b, static_cast<double>(i) / parts),
+                         to = glm::mix(a, b, static_cast<double>(i + 1) / parts);
+        taken.push_back({std::min(from.x, to.x) - kHalf, std::min(from.y, to.y) - kHalf,
+                         std::max(from.x, to.x) + kHalf, std::max(from.y, to.y) + kHalf});
+    }
+}
+
 std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken) {
     std::vector<LabelPlace> places;
@@ -78,7 +96,12 @@ std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, c
         std::optional<LabelPlace> place = placeBeside(request, room, taken);
         place = place ? place : placeOff(request, room, taken);
         places.push_back(place ? *place : placeAt(request, request.x + kGap, request.y - 7.0, true));
-        taken.push_back(places.back().box);
+        const auto& [x0, y0, x1, y1] = places.back().box;
+        taken.push_back({x0 - kApart, y0, x1 + kApart, y1});
+        if (!places.back().beside) {
+            const double end = x0 >= request.x ? x0 : x1;
+            addLine({request.x, request.y}, {end, places.back().y - kLevel}, taken);
+        }
     }
     return places;
 }

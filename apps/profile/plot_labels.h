@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,11 @@ struct LabelPlace {
 // dot, so that equal settings with equal results are labelled once.
 std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests);
 
+// Adds boxes that cover the line from a to b, for `taken` below. [pixels]
+void addLine(glm::dvec2 a, glm::dvec2 b, std::vector<PlotBox>& taken);
+
 // One place per request, in order; earlier requests get better places. `taken`: boxes that no label may
-// overlap, including the points. Labels do not overlap while `room` has a free place. After that, a label
+// overlap, including those of points and lines. Labels do not overlap while `room` has a free place. After that, a label
 // goes next to its point anyway, because none is dropped.
 std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken);

@@ -96,6 +96,7 @@ struct RankingRule {
 struct Study {
     std::string name;     // of its output files
     std::string title;    // readable
+    std::string labels;   // explains the settings' short names in the plot; may be empty
     std::string verified; // what was verified before timing
     std::string served;   // source of its data: recording or generated; set by the caller
     std::string errorName = "error", errorUnit = "none";

@@ -31,7 +31,9 @@ void writeStudyPlot(const Study& study, const std::string& subtitle, const std::
     const PanelGrid grid = panelGrid(study.panels.size());
     const Image image(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
     image.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
-    image.text(24.0, 60.0, subtitle + (hasErrorBars(study) ? " · points are p50, error bars end at p90" : ""),
+    image.text(24.0, 60.0,
+               subtitle + (study.labels.empty() ? "" : " · " + study.labels) +
+                   (hasErrorBars(study) ? " · points are p50, error bars end at p90" : ""),
                13, kFaint);
     const ColourTable colours = coloursOf(study.panels);
     for (size_t i = 0; i < study.panels.size(); ++i) {

@@ -7,6 +7,7 @@
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
+#include <glm/common.hpp>
 
 using namespace fathom;
 using namespace fathom::profile;
@@ -255,6 +256,29 @@ TEST_CASE("Every point of a crowded panel gets a label that overlaps no other la
     CHECK(led < 65);
     const auto alone = placeLabels({{400.0, 300.0, 90.0}}, room, {{396.0, 296.0, 404.0, 304.0}});
     CHECK(alone.front().beside);
+}
+
+TEST_CASE("Labels lie on no line of their plot") {
+    const PlotBox room{0.0, 0.0, 600.0, 400.0};
+    const std::vector<glm::dvec2> corners{{20.0, 50.0},   {200.0, 50.0},  {200.0, 200.0},
+                                          {320.0, 200.0}, {320.0, 330.0}, {560.0, 380.0}};
+    std::vector<PlotBox> taken;
+    for (size_t i = 1; i < corners.size(); ++i) {
+        addLine(corners[i - 1], corners[i], taken);
+    }
+    std::vector<LabelRequest> requests;
+    for (const glm::dvec2& corner : corners) {
+        requests.push_back({corner.x, corner.y, 80.0});
+    }
+    for (const LabelPlace& place : placeLabels(requests, room, taken)) {
+        CAPTURE(place.x);
+        for (size_t i = 1; i < corners.size(); ++i) {
+            for (double share = 0.0; share <= 1.0; share += 1.0 / 512.0) {
+                const glm::dvec2 at = glm::mix(corners[i - 1], corners[i], share);
+                CHECK(!place.box.meets({at.x, at.y, at.x + 1e-9, at.y + 1e-9}));
+            }
+        }
+    }
 }
 
 TEST_CASE("A name shared by points in one place is drawn once, and again for a distant point") {
