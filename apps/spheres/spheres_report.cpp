@@ -51,7 +51,7 @@ void printMesh(std::ostream& out, const LoadedMesh& loaded) {
 }
 
 void printRows(std::ostream& out, const std::vector<CoverRow>& rows) {
-    out << std::left << std::setw(10) << "way" << std::right << std::setw(7) << "leaves" << std::setw(10)
+    out << std::left << std::setw(10) << "method" << std::right << std::setw(7) << "leaves" << std::setw(10)
         << "max mm" << std::setw(10) << "mean mm" << std::setw(11) << "proven mm" << std::setw(10)
         << "outside" << std::setw(9) << "gap mm" << std::setw(9) << "volume" << std::setw(10) << "inside"
         << std::setw(8) << "s\n";
