@@ -135,7 +135,7 @@ void drawSpans(const TraceArea& lane, std::vector<TraceSpan> spans) {
     for (const TraceSpan& span : spans) {
         const float x = lane.x(span.from) + 4.0f, end = x + ImGui::CalcTextSize(span.word).x;
         if (x > free && end < right) {
-            list.AddText({x, bottom - ImGui::GetTextLineHeight()}, span.colour, span.word);
+            list.AddText({x, bottom - ImGui::GetTextLineHeight()}, colour::kText, span.word);
             free = end + kRoom;
         }
     }
@@ -172,15 +172,25 @@ void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const Trace
 std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace) {
     std::vector<TraceSpan> spans;
     const auto collect = [&](ImU32 colour, auto wordOf) {
+        constexpr double kFlicker = 0.1 - 1e-6; // [s] shorter breaks are part of a span
+        const size_t first = spans.size();
+        size_t now = first; // the span of `before`
         std::string_view before;
         for (const TraceSample& sample : trace) {
             const char* const name = wordOf(sample);
             const std::string_view word = name;
             if (!before.empty()) {
-                spans.back().to = sample.t;
+                spans[now].to = sample.t;
             }
             if (word != before && !word.empty()) {
-                spans.push_back({sample.t, sample.t, name, colour});
+                for (now = spans.size(); now > first && spans[now - 1].word != word; --now) {
+                }
+                if (now > first && sample.t - spans[now - 1].to < kFlicker) {
+                    --now;
+                } else {
+                    now = spans.size();
+                    spans.push_back({sample.t, sample.t, name, colour});
+                }
             }
             before = word;
         }

@@ -31,7 +31,7 @@ struct TraceSpan {
     const char* word = "";
     ImU32 colour = 0;
 };
-// Guidance first, then states, each in order of time.
+// Guidance first, then states, each in order of time. Spans of one word less than 0.1 s apart are one.
 std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace);
 // What happened, below the curves: new fixture sets, late ticks, guidance and states as bars with their
 // names.

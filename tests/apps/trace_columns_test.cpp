@@ -81,6 +81,30 @@ TEST_CASE("The columns of a trace begin anew at an earlier time, in another run 
     CHECK(trace.columns.empty());
 }
 
+TEST_CASE("A state that flickers is one bar, and one that comes back after 0.1 s is another") {
+    std::deque<TraceSample> trace;
+    for (int i = 0; i < 100; ++i) {
+        TraceSample sample;
+        sample.t = 0.01 * i;
+        const bool busy = i >= 10 && i < 40, again = i >= 60 && i < 70;
+        sample.state = busy && i % 2 == 0   ? StepState::Escape
+                       : busy && i % 3 == 0 ? StepState::Waiting
+                       : again              ? StepState::Escape
+                                            : StepState::Contact;
+        trace.push_back(sample);
+    }
+    const std::vector<TraceSpan> spans = traceSpans(trace);
+    REQUIRE(spans.size() == 3);
+    CHECK(std::string(spans[0].word) == "escape");
+    CHECK(spans[0].from == doctest::Approx(0.1));
+    CHECK(spans[0].to == doctest::Approx(0.39));
+    CHECK(std::string(spans[1].word) == "lags");
+    CHECK(spans[1].from == doctest::Approx(0.15));
+    CHECK(spans[1].to == doctest::Approx(0.4));
+    CHECK(std::string(spans[2].word) == "escape");
+    CHECK(spans[2].from == doctest::Approx(0.6));
+}
+
 TEST_CASE("A state that lasts is one bar from its begin to its end, however often it comes back") {
     std::deque<TraceSample> trace;
     for (int i = 0; i < 100; ++i) {
