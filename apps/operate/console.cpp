@@ -3,6 +3,8 @@
 
 #include "apps/operate/disk_space.h"
 
+#include <algorithm>
+#include <cmath>
 #include <imgui.h>
 
 namespace fathom::operate {
@@ -51,7 +53,11 @@ void markPlace(Console& console, const std::string& name, ImVec2 corner, ImVec2 
 }
 
 bool markedButton(Console& console, const char* label, const std::string& name, const char* tip) {
-    const bool pressed = ImGui::SmallButton(label);
+    // Without vertical padding, as in a SmallButton, the frame cuts descenders.
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {ImGui::GetStyle().FramePadding.x, std::max(1.0f, std::floor(console.scale()))});
+    const bool pressed = ImGui::Button(label);
+    ImGui::PopStyleVar();
     markPlace(console, name);
     explain(console, tip);
     return pressed;
