@@ -20,12 +20,14 @@ constexpr double kFollowedForce = 3.0;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
 // True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it
-// lost its length, and nothing else holds there.
-bool lostItsHold(const dvec3& before, const dvec3& held, double byHand, const Springs& springs) {
+// lost its length, and no row holds there. Friction on other rows keeps the tool back by `stuck` [m], which
+// is no hold.
+bool lostItsHold(const dvec3& before, const dvec3& held, const dvec3& stuck, double byHand,
+                 const Springs& springs) {
     const double partGone = std::clamp(kPartGone / springs.stiffness, kMinPartGone, kMaxPartGone);
     const dvec3 lost = before - held;
     const bool fell = glm::length(held) < glm::length(before) - byHand - partGone;
-    return fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost);
+    return fell && glm::dot(held + stuck, lost) <= kStillHeld * glm::length(lost);
 }
 
 } // namespace
@@ -37,7 +39,8 @@ bool HapticCycle::turnVanished(const ProxyStep& moved, const Pose& endBefore) co
         return springs.metricRadius * rotationBetween(springEnd_.rotation, pose.rotation);
     };
     const dvec3 held = moved.active.empty() ? dvec3(0.0) : turnOf(moved.allowed);
-    return !arm_ && lostItsHold(turnOf(allowed_), held, glm::length(turnOf(endBefore)), springs);
+    const dvec3 stuck = springs.metricRadius * moved.stuckTurn;
+    return !arm_ && lostItsHold(turnOf(allowed_), held, stuck, glm::length(turnOf(endBefore)), springs);
 }
 
 // A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
@@ -81,7 +84,8 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
     const double byHand = glm::distance(springEnd_.position, endBefore.position);
     const dvec3 lost = pressing_.spring - held;
-    if (!arm_ && lostItsHold(pressing_.spring, held, byHand, watch_.springs()) && !wentBack(set, lost)) {
+    if (!arm_ && lostItsHold(pressing_.spring, held, moved.stuck, byHand, watch_.springs()) &&
+        !wentBack(set, lost)) {
         return lost;
     }
     return turnVanished(moved, endBefore) ? std::optional(dvec3(0.0)) : std::nullopt;
@@ -139,14 +143,15 @@ void HapticCycle::keepHandAtTool(const Pose& before, const Pose& endBefore, cons
     }
     const dvec3 apart = tool_.position - springEnd_.position;
     const dvec3 by = all ? apart : projectedOn(apart, along);
+    const dvec3 free = by + projectedOn(moved.stuck, along); // friction ends with what it held back
     shiftHand(by, turned ? tool_.rotation * glm::conjugate(springEnd_.rotation) : kNoTurn);
     if (all) {
         moved.allowed = springEnd_;
     } else if (turned) { // the solver allowed a position for a tool that turns
-        moved.allowed = {(glm::dot(along, along) > 0.0 ? moved.allowed : allowed_).position + by,
+        moved.allowed = {(glm::dot(along, along) > 0.0 ? moved.allowed : allowed_).position + free,
                          tool_.rotation};
     } else {
-        moved.allowed.position += by;
+        moved.allowed.position += free;
     }
     moved.cut = !all;
     ++handShift_.vanished;

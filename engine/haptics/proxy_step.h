@@ -52,6 +52,9 @@ struct ProxyStep {
     // cut it. Equal to `pose` when nothing was cut. The distance from here to the target is the reaction of
     // the regions; the distance from `pose` to here is lag, which has no force.
     Pose allowed;
+    // By how much friction alone keeps `allowed` from the pose that the rows allow: a translation [m] and a
+    // rotation vector [rad]. The reaction contains it.
+    dvec3 stuck{0.0}, stuckTurn{0.0};
     bool cut = false;         // `allowed` was not reached
     bool blocked = false;     // only the exact check keeps the tool from the target: counts as a row
     bool rowsExpired = false; // `allowed` is farther away than the tangents of the active rows are accurate

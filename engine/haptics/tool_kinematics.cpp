@@ -95,9 +95,12 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
         !solveFor(wanted_, found.full, rows, out)) {
         return false;
     }
+    Motion stuck;
     if (friction_ > 0.0 && !rows.escaping()) {
-        applyFriction(found.full, rows);
+        stuck = applyFriction(found.full, rows);
     }
+    out.stuck = stuck.a;
+    out.stuckTurn = stuck.alpha;
     answer = found;
     rows.recordActive();
     return true;
@@ -105,16 +108,18 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
 
 // Friction as a play: shortens the sliding part of the solution by mu times the distance that the rows take
 // from the target. At rest the spring then also pulls sideways, by at most mu times the reaction. The tool
-// still only moves nearer to the target, so friction stores no energy that the hand did not give.
-void ToolKinematics::applyFriction(Motion& full, const ProxyRows& rows) const noexcept {
+// still only moves nearer to the target, so friction stores no energy that the hand did not give. Returns
+// what it took off.
+Motion ToolKinematics::applyFriction(Motion& full, const ProxyRows& rows) const noexcept {
     std::array<double, 6> slide{};
     if (!rows.tangential(unknownsOf(full), slide)) {
-        return;
+        return {};
     }
     const Motion sliding{dvec3(slide[0], slide[1], slide[2]), dvec3(slide[3], slide[4], slide[5])};
     const double held = friction_ * lengthOf(wanted_ - full, metricRadius_);
-    const double shortening = std::min(1.0, held / lengthOf(sliding, metricRadius_));
-    full = full - shortening * sliding;
+    const Motion stuck = std::min(1.0, held / lengthOf(sliding, metricRadius_)) * sliding;
+    full = full - stuck;
+    return stuck;
 }
 
 // Largest part of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the
