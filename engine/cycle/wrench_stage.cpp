@@ -11,6 +11,7 @@ namespace {
 constexpr double kCalmTurn = 0.2;   // share of the wanted wrench: 11 degrees
 constexpr double kFastSlew = 4.0;   // times the rate of a ramp; the default slew limits are faster
 constexpr double kRounding = 1e-12; // relative
+constexpr double kNoTail = 1e-10;   // [N], [N m] less is rounding
 
 PassivityOptions passivityOf(const HapticOptions& options) {
     PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling);
@@ -40,6 +41,13 @@ dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filt
     const double calm = glm::dot(sized, wanted) < 0.0 ? 0.0 : kCalmTurn * size;
     const double tail = glm::length(before - wantedPart(before, wanted)) - step;
     return kept + clampLength(sized - kept, std::max(calm, tail));
+}
+
+// True if `felt` is more than the pull of guidance, in size or in another direction: what pushed before fades.
+bool hasTail(const dvec3& felt, const dvec3& pull) {
+    const double size = glm::length(pull);
+    return glm::length(felt) > size + kNoTail ||
+           glm::length(felt - wantedPart(felt, pull)) > kCalmTurn * size + kNoTail;
 }
 
 } // namespace
@@ -138,11 +146,14 @@ void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damp
 
 uint32_t WrenchStage::causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
                               const Wrench& slewed) const noexcept {
-    const bool caused = input.pushes != 0 || !isZero(input.pull);
-    const bool fades = ramps_.active() || reaction_.fades() || (!caused && !isZero(smooth_));
+    const Wrench& pull = input.pull;
+    const bool tail = isZero(pull)
+                          ? !isZero(smooth_)
+                          : hasTail(smooth_.force, pull.force) || hasTail(smooth_.torque, pull.torque);
+    const bool fades = ramps_.active() || reaction_.fades() || (input.pushes == 0 && tail);
     const bool held = slewed.force != sized.force || slewed.torque != sized.torque;
-    return input.pushes | (isZero(input.pull) ? 0 : cause::kGuidance) |
-           (isZero(damper) ? 0 : cause::kDamping) | (fades ? cause::kRamp : 0) | (held ? cause::kSlew : 0);
+    return input.pushes | (isZero(pull) ? 0 : cause::kGuidance) | (isZero(damper) ? 0 : cause::kDamping) |
+           (fades ? cause::kRamp : 0) | (held ? cause::kSlew : 0);
 }
 
 void WrenchStage::cut() noexcept {
