@@ -3,6 +3,7 @@
 
 #include "engine/cycle/haptic_options.h"
 #include "engine/cycle/step_record.h"
+#include "engine/haptics/passivity.h"
 #include "engine/types/number_text.h"
 
 #include <algorithm>
@@ -125,6 +126,23 @@ void noteBound(std::vector<std::string>& notes, const Scene& scene, double times
     }
 }
 
+// Where the device's own damping is known, the passive bound contains the rendered one. Elsewhere only what
+// the ticks can follow on a light device is known.
+void warnDamping(std::vector<std::string>& warnings, const HapticOptions& options) {
+    const CouplingOptions& coupling = options.coupling;
+    const double atHand = coupling.damping * coupling.handScale;
+    const double most =
+        PassivityController::kMaxImpulse / (coupling.period * (1.0 + 2.0 * coupling.delayTicks));
+    if (!options.device.damping && atHand > most) {
+        warnings.push_back(
+            "haptics.damping: " + significant(atHand, 4) + " N s/m at the hand, over the " +
+            significant(most, 4) +
+            " N s/m that are safe at this rate_hz and delay: a light hand can chatter in contact, "
+            "because the damping of device " +
+            options.device.name + " is unknown (allowed: auto, or a smaller value)");
+    }
+}
+
 // Torques may be unwanted, so these are notes alone.
 void noteTorques(std::vector<std::string>& notes, const Scene::Haptics& haptics) {
     if (haptics.torqueLimit && *haptics.torqueLimit < kMinTorque) {
@@ -163,6 +181,7 @@ std::vector<std::string> forceWarnings(const Scene& scene) {
                            significant(felt * kShallow, 4) + " N");
     }
     noteBound(warnings, scene, kUnstableTimes, kUnlimited);
+    warnDamping(warnings, options);
     warnPull(warnings, options, springs, haptics.pullForce);
     return warnings;
 }
