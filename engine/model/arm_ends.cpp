@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_ends.h"
 
+#include "engine/model/bare_frames.h"
 #include "engine/model/gripper_joints.h"
 #include "engine/model/jaw_joint.h"
 #include "engine/model/link_names.h"
@@ -17,10 +18,6 @@ using LinkPtr = std::shared_ptr<const urdf::Link>;
 
 constexpr size_t kMaxNamed = 6; // names in a note
 constexpr int kMaxBehind = 2;   // joints of an unknown gripper behind a tool frame
-
-bool isBareFrame(const urdf::Link& link) {
-    return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
-}
 
 class EndChooser {
 public:
@@ -40,33 +37,28 @@ public:
 
     void chooseTip(ArmEnds& ends) {
         walk({ends.base, 0});
-        const bool any = std::any_of(seen_.begin(), seen_.end(),
-                                     [](const Seen& s) { return s.moving > 0 && !s.inGripper; });
-        const auto usable = [&](const Seen& s) { return !any || !s.inGripper; };
-        int most = 0;
+        any_ = std::any_of(seen_.begin(), seen_.end(),
+                           [](const Seen& s) { return s.moving > 0 && !s.inGripper; });
         for (const Seen& s : seen_) {
-            most = usable(s) ? std::max(most, s.moving) : most;
+            most_ = usable(s) ? std::max(most_, s.moving) : most_;
         }
         const Seen* best = nullptr;
-        for (const Seen& s : seen_) { // a named frame near the end of the longest chain
-            const bool near = 2 * s.moving > most && most - s.moving <= kMaxBehind;
-            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kNoTool &&
-                              !(namesPart(s.link->name) && !behind(s, usable).empty());
-            if (fits && (best == nullptr || s.moving > best->moving ||
-                         (s.moving == best->moving && (s.rank < best->rank || isBehind(s, *best))))) {
+        for (const Seen& s : seen_) {
+            if (isTool(s) && (best == nullptr || s.moving > best->moving ||
+                              (s.moving == best->moving && betters(s, *best)))) {
                 best = &s;
             }
         }
         ends.tipWhy = "a tool frame by its name";
         if (best == nullptr) {
             best = &*std::find_if(seen_.begin(), seen_.end(),
-                                  [&](const Seen& s) { return usable(s) && s.moving == most; });
+                                  [&](const Seen& s) { return usable(s) && s.moving == most_; });
             ends.tipWhy = best->gripperBelow ? "the end of the longest chain before a gripper"
                                              : "the end of the longest chain";
         }
-        noteOthers(ends, *best, any);
+        noteOthers(ends, *best);
         noteSkipped(ends, *best);
-        if (const std::string joints = behind(*best, usable); !joints.empty()) {
+        if (const std::string joints = behind(*best); !joints.empty()) {
             ends.notes.push_back("joints that move lie behind the tip " + best->link->name +
                                  " and stay where they are: " + joints + "; arm.tip selects another");
         }
@@ -75,7 +67,10 @@ public:
                 ends.notes.push_back(warning);
             }
         }
-        ends.tip = best->rank < kNoTool ? best->link : bareEnd(bodyAt(best->link), ends);
+        ends.tip = best->rank < kNoTool ? best->link : endOf(*best);
+        if (best->rank == kNoTool && ends.tip != bodyAt(model_, best->link)) {
+            ends.tipWhy = "the frame fixed to the end of the longest chain";
+        }
     }
 
 private:
@@ -91,10 +86,28 @@ private:
         size_t rank = kNoTool;
     };
 
+    bool usable(const Seen& s) const { return !any_ || !s.inGripper; }
+
+    // Whether the frame has a tool's name and is near the end of the longest chain.
+    bool isTool(const Seen& s) const {
+        const bool near = 2 * s.moving > most_ && most_ - s.moving <= kMaxBehind;
+        return usable(s) && s.moving > 0 && near && s.rank < kNoTool &&
+               !(namesPart(s.link->name) && !behind(s).empty());
+    }
+
+    // Of two tool frames behind as many joints.
+    static bool betters(const Seen& frame, const Seen& than) {
+        return frame.rank < than.rank || isBehind(frame, than);
+    }
+
+    // The tip of an arm that ends there.
+    LinkPtr endOf(const Seen& s) const {
+        return isTool(s) ? s.link : bareEnd(model_, grippers_, bodyAt(model_, s.link));
+    }
+
     // The joints from a frame to the end of a longer chain, if it ends in no gripper: one joint behind the
     // other, and at least one of them as those of an arm. Empty = none.
-    template <class Usable>
-    std::string behind(const Seen& frame, const Usable& usable) const {
+    std::string behind(const Seen& frame) const {
         for (auto end = seen_.rbegin(); end != seen_.rend(); ++end) {
             std::string names;
             bool arm = false, row = end->moving > frame.moving && usable(*end);
@@ -193,15 +206,18 @@ private:
         }
     }
 
-    // Other ends with as many joints, on other branches.
-    void noteOthers(ArmEnds& ends, const Seen& best, bool any) const {
-        std::vector<std::string> others;
-        const urdf::Joint* before = best.last;
+    // Other ends with as many joints, on other branches: of each the tip that it would have as the arm.
+    void noteOthers(ArmEnds& ends, const Seen& best) const {
+        std::vector<const Seen*> others;
         for (const Seen& s : seen_) {
-            const bool end = s.moving == best.moving && s.last != best.last && s.last != before;
-            if (end && s.moving > 0 && (!any || !s.inGripper)) {
-                others.push_back(s.link->name);
-                before = s.last;
+            if (s.moving == 0 || s.moving != best.moving || s.last == best.last || !usable(s)) {
+                continue;
+            }
+            const auto same = std::ranges::find(others, s.last, &Seen::last);
+            if (same == others.end()) {
+                others.push_back(&s);
+            } else if (isTool(s) && (!isTool(**same) || betters(s, **same))) {
+                *same = &s;
             }
         }
         if (others.empty()) {
@@ -209,46 +225,18 @@ private:
         }
         std::string names;
         for (size_t i = 0; i < others.size() && i < kMaxNamed; ++i) {
-            names += (i == 0 ? "" : ", ") + others[i];
+            names += (i == 0 ? "" : ", ") + endOf(*others[i])->name;
         }
         ends.notes.push_back("tip " + best.link->name + " is one of several ends of chains with " +
                              std::to_string(best.moving) + " joints; arm.tip selects another: " + names);
-    }
-
-    // The body that a frame without shapes only carries, such as the frame of an MJCF joint beside its body.
-    LinkPtr bodyAt(LinkPtr link) const {
-        if (isBareFrame(*link) && link->parent_joint && moves(*link->parent_joint) &&
-            link->child_joints.size() == 1 && link->child_joints[0]->type == urdf::Joint::FIXED) {
-            const LinkPtr child = model_.getLink(link->child_joints[0]->child_link_name);
-            return isBareFrame(*child) ? link : child;
-        }
-        return link;
-    }
-
-    // Follows fixed joints to frames without shapes, as long as there is only one.
-    LinkPtr bareEnd(LinkPtr link, ArmEnds& ends) const {
-        for (;;) {
-            std::vector<LinkPtr> bare;
-            for (const auto& joint : link->child_joints) {
-                const LinkPtr child = model_.getLink(joint->child_link_name);
-                const bool site = joint->name.ends_with(kSiteEnding); // of a sensor or tendon, by its name
-                if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) && !site &&
-                    grippers_.depthBelow(child->name) == 0) {
-                    bare.push_back(child);
-                }
-            }
-            if (bare.size() != 1) {
-                return link;
-            }
-            link = bare[0];
-            ends.tipWhy = "the frame fixed to the end of the longest chain";
-        }
     }
 
     const urdf::ModelInterface& model_;
     const std::filesystem::path& file_;
     GripperJoints grippers_;
     std::vector<Seen> seen_;
+    bool any_ = false; // a link outside of grippers moves
+    int most_ = 0;     // joints of the longest chain
 };
 
 // The base below the last planar or floating joint on the way to the tip, if a joint is left below it.

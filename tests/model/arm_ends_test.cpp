@@ -124,6 +124,29 @@ TEST_CASE("Chains of the same length give a note that names the other ends") {
     CHECK(arm.notes[0] == "tip c is one of several ends of chains with 2 joints; arm.tip selects another: e");
 }
 
+TEST_CASE("The other ends are the frames that would be the tips of their branches") {
+    const auto other = [](const std::string& end) {
+        const std::string branch = ballLink("d") + ballLink("e") +
+                                   jointText("k1", "revolute", "a", "d", "0 0.2 0", "0 1 0") +
+                                   jointText("k2", "revolute", "d", "e", "0 0 0.4", "1 0 0");
+        const ArmModel arm = loadUrdf(twoJoints(branch + end));
+        REQUIRE(arm.notes.size() == 1);
+        return arm.notes[0].substr(arm.notes[0].rfind(": ") + 2);
+    };
+    const std::string hand = ballLink("right_hand") +
+                             jointText("h", "fixed", "e", "right_hand", "0 0 0.1", "0 0 1"),
+                      tcp = "<link name='right_hand_tcp'/>" +
+                            jointText("t", "fixed", "right_hand", "right_hand_tcp", "0 0 0.1", "0 0 1"),
+                      slide = "<limit lower='0' upper='0.04' velocity='0.2' effort='1'/>";
+    CHECK(other(hand + "<link name='tool0'/>" + jointText("f", "fixed", "c", "tool0", "0 0 0.1", "0 0 1")) ==
+          "right_hand");
+    CHECK(other(hand + tcp + "<link name='hand_tcp'/>" +
+                jointText("f", "fixed", "c", "hand_tcp", "0 0 0.1", "0 0 1") + ballLink("right_finger") +
+                jointText("g", "prismatic", "right_hand", "right_finger", "0 0 0", "0 1 0", slide)) ==
+          "right_hand_tcp");
+    CHECK(other("<link name='mark'/>" + jointText("f", "fixed", "e", "mark", "0 0 0.1", "0 0 1")) == "mark");
+}
+
 TEST_CASE("Links that carry the base, and those of other branches, stay where they are and have leaves") {
     ArmOptions options;
     options.base = "b";

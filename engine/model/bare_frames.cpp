@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/bare_frames.h"
+
+#include "engine/model/gripper_joints.h"
+#include "engine/model/link_names.h"
+
+namespace fathom {
+
+namespace {
+
+using FramePtr = std::shared_ptr<const urdf::Link>;
+
+bool isBareFrame(const urdf::Link& link) {
+    return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
+}
+
+} // namespace
+
+FramePtr bodyAt(const urdf::ModelInterface& model, const FramePtr& link) {
+    if (isBareFrame(*link) && link->parent_joint && moves(*link->parent_joint) &&
+        link->child_joints.size() == 1 && link->child_joints[0]->type == urdf::Joint::FIXED) {
+        const FramePtr child = model.getLink(link->child_joints[0]->child_link_name);
+        return isBareFrame(*child) ? link : child;
+    }
+    return link;
+}
+
+FramePtr bareEnd(const urdf::ModelInterface& model, const GripperJoints& grippers, FramePtr link) {
+    for (;;) {
+        std::vector<FramePtr> bare;
+        for (const auto& joint : link->child_joints) {
+            const FramePtr child = model.getLink(joint->child_link_name);
+            const bool site = joint->name.ends_with(kSiteEnding); // of a sensor or tendon, by its name
+            if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) && !site &&
+                grippers.depthBelow(child->name) == 0) {
+                bare.push_back(child);
+            }
+        }
+        if (bare.size() != 1) {
+            return link;
+        }
+        link = bare[0];
+    }
+}
+
+} // namespace fathom
