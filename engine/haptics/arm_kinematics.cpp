@@ -135,7 +135,7 @@ bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
     // oscillates.
     const Motion whole = remaining(tip, target_);
     const Motion left =
-        std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(whole, metricRadius_)) * whole;
+        std::min(1.0, kFarthestAim * options_.stepCap / divisorOf(whole, metricRadius_)) * whole;
     normal_ = ArmNormal(free_.size());
     for (size_t k = 0; k < arm_.count(); ++k) {
         normal_.addColumn(joints_.column[k], joints_.gain[k] * arm_.motionOf(now_.frames, k, tip.position),

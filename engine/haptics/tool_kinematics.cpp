@@ -117,7 +117,7 @@ Motion ToolKinematics::applyFriction(Motion& full, const ProxyRows& rows) const 
     }
     const Motion sliding{dvec3(slide[0], slide[1], slide[2]), dvec3(slide[3], slide[4], slide[5])};
     const double held = friction_ * lengthOf(wanted_ - full, metricRadius_);
-    const Motion stuck = std::min(1.0, held / lengthOf(sliding, metricRadius_)) * sliding;
+    const Motion stuck = std::min(1.0, held / divisorOf(sliding, metricRadius_)) * sliding;
     full = full - stuck;
     return stuck;
 }

@@ -64,7 +64,11 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept {
 
 double lengthOf(const Motion& motion, double k) noexcept {
     return std::sqrt(
-        std::max(1e-300, glm::dot(motion.a, motion.a) + k * k * glm::dot(motion.alpha, motion.alpha)));
+        std::max(0.0, glm::dot(motion.a, motion.a) + k * k * glm::dot(motion.alpha, motion.alpha)));
+}
+
+double divisorOf(const Motion& motion, double k) noexcept {
+    return std::max(1e-150, lengthOf(motion, k));
 }
 
 LeafPlaces::LeafPlaces(const Tool& tool)

@@ -33,8 +33,10 @@ Pose moved(const Pose& pose, const Motion& motion) noexcept;
 // Remaining motion from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
 Motion remaining(const Pose& pose, const Pose& target) noexcept;
 
-// sqrt(|a|^2 + k^2 |alpha|^2) [m], never 0.
+// sqrt(|a|^2 + k^2 |alpha|^2) [m]; 0 where that is no number.
 double lengthOf(const Motion& motion, double k) noexcept;
+// The same, but never 0, to divide by.
+double divisorOf(const Motion& motion, double k) noexcept;
 
 // Points [first, first + count) of one frame at its pose, about `origin` [m].
 void placePoints(const LeafCentres& points, size_t first, size_t count, const Pose& pose, const dvec3& origin,

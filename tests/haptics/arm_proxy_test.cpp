@@ -57,6 +57,16 @@ TEST_CASE("An arm with four to twelve joints moves its tip to a reachable positi
     }
 }
 
+TEST_CASE("An arm that is at its target reports a distance of exactly 0") {
+    const ArmModel arm = makeArm(6, 1);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3});
+    ArmFrames frames;
+    arm.place(proxy.joints(), Pose{}, frames);
+    for (int i = 0; i < 3; ++i) {
+        CHECK(proxy.step(arm.tip(frames), 0.1, nullptr).residual == 0.0);
+    }
+}
+
 TEST_CASE("No joint exceeds its position or speed limits for any hand motion") {
     std::mt19937_64 random(5);
     for (size_t joints : {1u, 4u, 7u, 12u}) {
