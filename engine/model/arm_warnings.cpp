@@ -27,6 +27,15 @@ std::string limitWarning(const std::string& joint, bool slides, double lower, do
     return line.str();
 }
 
+std::string limitFault(const urdf::JointLimits* limits) {
+    if (limits == nullptr) {
+        return "no limits";
+    }
+    std::ostringstream values;
+    values << "lower " << limits->lower << ", upper " << limits->upper;
+    return limits->lower <= limits->upper ? "" : values.str();
+}
+
 std::string speedWarning(const std::string& joint, bool slides, double stated) {
     if (stated < 0.0) {
         std::ostringstream none;

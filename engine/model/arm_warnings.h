@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <urdf_model/joint.h>
 
 namespace fathom {
 
@@ -21,5 +22,8 @@ std::string takenWarning(const std::string& finger, double open, double closed, 
 std::string endsWarning(const std::string& finger, double open, double closed, bool seen);
 // On a finger with only one end in the scene: openGiven, or else the closed one.
 std::string oneEndWarning(const std::string& finger, bool openGiven, double open, double closed);
+
+// Why limits bound no range, with their values; empty if they do. limits: may be null.
+std::string limitFault(const urdf::JointLimits* limits);
 
 } // namespace fathom

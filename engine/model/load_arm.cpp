@@ -139,8 +139,8 @@ private:
         if (joint.type == urdf::Joint::CONTINUOUS) {
             out.limitsFrom = "continuous";
         } else {
-            if (!joint.limits || !(joint.limits->lower <= joint.limits->upper)) {
-                refuse("joint " + joint.name, "limits missing or crossed", "lower <= upper");
+            if (const std::string fault = limitFault(joint.limits.get()); !fault.empty()) {
+                refuse("joint " + joint.name, fault, "lower <= upper");
             }
             out.lower = joint.limits->lower;
             out.upper = joint.limits->upper;

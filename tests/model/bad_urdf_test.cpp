@@ -32,7 +32,7 @@ TEST_CASE("Two roots, circles, limits that are crossed or no numbers, and too ma
                                   jointText("k", "revolute", "b", "a", "0 0 0", "0 0 1")),
                       "root"));
     CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='1' upper='-1' velocity='1' effort='1'/>")),
-                      "joint j: limits missing or crossed (allowed: lower <= upper)"));
+                      "joint j: lower 1, upper -1 (allowed: lower <= upper)"));
     CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='nan' upper='1' velocity='1' effort='1'/>")),
                       "(allowed: "));
     CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='0' upper='many' velocity='1' effort='1'/>")),
