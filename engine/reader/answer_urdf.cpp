@@ -162,6 +162,19 @@ std::string faultOf(const std::vector<std::string>& errors, const std::string& t
     return errors[0] + (named == errors.end() ? mimicWith(errors[0], text) : "; " + *named);
 }
 
+// What the parser would accept in place of what it reports.
+std::string allowedFor(const std::string& fault) {
+    constexpr std::array<std::array<const char*, 2>, 4> kAllowed{
+        {{"does not specify limits",
+          R"(<limit lower="l" upper="u"/> [rad], [m]; type="continuous" for a joint that turns without limits)"},
+         {"has no known type", "revolute, continuous, prismatic, fixed, planar, floating, in small letters"},
+         {"'version' specified", R"(<robot version="1.0">, or no version)"},
+         {"No name given for the robot", R"(<robot name="n">)"}}};
+    const auto found = std::ranges::find_if(
+        kAllowed, [&](const auto& line) { return fault.find(line[0]) != std::string::npos; });
+    return found == kAllowed.end() ? "a URDF robot" : (*found)[1];
+}
+
 void noteSoftLimits(const urdf::ModelInterface& model, std::vector<std::string>& notes) {
     for (const auto& [name, joint] : model.joints_) {
         const auto& soft = joint->safety;
@@ -208,7 +221,8 @@ std::string packetOf(const std::filesystem::path& file) {
         return urdf::parseURDF(textForParser(text, file.string()));
     }();
     if (!model) {
-        throw BadInput(file.string(), "robot", printable(faultOf(listener.errors(), text)), "a URDF robot");
+        const std::string fault = faultOf(listener.errors(), text);
+        throw BadInput(file.string(), "robot", printable(fault), allowedFor(fault));
     }
     checkLinks(*model, file.string());
     checkSpelling(text, file.string(), notes);

@@ -152,6 +152,20 @@ TEST_CASE("A capsule without a length and a mesh without a file name are named a
     CHECK(reportsOnly(urdfRefusal(link("<mesh filename=''/>")), "link arm: a mesh without a file name"));
 }
 
+TEST_CASE("Limits, types and versions that the parser rejects come with what is allowed") {
+    CHECK(reportsOnly(urdfRefusal(withLimit("")),
+                      "(allowed: <limit lower=\"l\" upper=\"u\"/> [rad], [m]; type=\"continuous\" for"));
+    CHECK(reportsOnly(
+        urdfRefusal(ballLink("a") + ballLink("b") + jointText("j", "Revolute", "a", "b", "0 0 0", "0 0 1")),
+        "(allowed: revolute, continuous, prismatic, fixed, planar, floating, in small letters)"));
+    const auto robot = [](const std::string& attributes) {
+        const ScratchFile file("arm.urdf", "<robot " + attributes + ">" + ballLink("a") + "</robot>");
+        return refusalOf([&] { loadArm(file.path(), {}); });
+    };
+    CHECK(reportsOnly(robot("name='r' version='2.0'"), "(allowed: <robot version=\"1.0\">, or no version)"));
+    CHECK(reportsOnly(robot(""), "(allowed: <robot name=\"n\">)"));
+}
+
 TEST_CASE("A negative speed counts as none, with a note that states it") {
     const ArmModel arm = loadUrdf(withLimit("<limit lower='-1' upper='1' velocity='-2' effort='1'/>"));
     CHECK(arm.joints[0].speed == kUnknownTurn);
