@@ -9,6 +9,7 @@
 #include "engine/types/joined.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace fathom {
 
@@ -71,6 +72,7 @@ public:
         if (best->rank == kNoTool && ends.tip != bodyAt(model_, best->link)) {
             ends.tipWhy = "the frame fixed to the end of the longest chain";
         }
+        noteFrames(ends);
     }
 
 private:
@@ -223,12 +225,27 @@ private:
         if (others.empty()) {
             return;
         }
-        std::string names;
-        for (size_t i = 0; i < others.size() && i < kMaxNamed; ++i) {
-            names += (i == 0 ? "" : ", ") + endOf(*others[i])->name;
-        }
+        std::vector<std::string> names;
+        std::ranges::transform(others, std::back_inserter(names),
+                               [&](const Seen* s) { return endOf(*s)->name; });
         ends.notes.push_back("tip " + best.link->name + " is one of several ends of chains with " +
-                             std::to_string(best.moving) + " joints; arm.tip selects another: " + names);
+                             std::to_string(best.moving) +
+                             " joints; arm.tip selects another: " + firstOf(names));
+    }
+
+    // Frames farther on, one of which may be meant as the tool's.
+    void noteFrames(ArmEnds& ends) const {
+        const std::vector<std::string> frames = framesBelow(model_, ends.tip);
+        if (!frames.empty()) {
+            ends.notes.push_back("frames without shapes are fixed to the tip " + ends.tip->name +
+                                 "; arm.tip selects one: " + firstOf(frames));
+        }
+    }
+
+    static std::string firstOf(std::vector<std::string> names) {
+        const size_t more = names.size() - std::min(names.size(), kMaxNamed);
+        names.resize(names.size() - more);
+        return joined(names) + (more > 0 ? " and " + std::to_string(more) + " more" : "");
     }
 
     const urdf::ModelInterface& model_;

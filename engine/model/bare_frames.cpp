@@ -3,6 +3,9 @@
 
 #include "engine/model/gripper_joints.h"
 #include "engine/model/link_names.h"
+#include "engine/model/urdf_file.h"
+
+#include <utility>
 
 namespace fathom {
 
@@ -41,6 +44,25 @@ FramePtr bareEnd(const urdf::ModelInterface& model, const GripperJoints& gripper
         }
         link = bare[0];
     }
+}
+
+std::vector<std::string> framesBelow(const urdf::ModelInterface& model, const FramePtr& tip) {
+    std::vector<std::string> names;
+    std::vector<std::pair<FramePtr, Pose>> open{{tip, Pose{}}};
+    for (size_t at = 0; at < open.size(); ++at) {
+        const auto [link, tipTlink] = open[at];
+        const bool apart = tipTlink.position != dvec3(0.0) || tipTlink.rotation != dquat(1.0, 0.0, 0.0, 0.0);
+        if (apart && isBareFrame(*link)) {
+            names.push_back(link->name);
+        }
+        for (const auto& joint : link->child_joints) {
+            if (joint->type == urdf::Joint::FIXED) {
+                open.emplace_back(model.getLink(joint->child_link_name),
+                                  tipTlink * poseOf(joint->parent_to_joint_origin_transform));
+            }
+        }
+    }
+    return names;
 }
 
 } // namespace fathom

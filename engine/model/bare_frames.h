@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a URDF that carry no shapes, below links of an arm.
+// Frames at the ends of an arm: those below its tip without shapes, and a base below the root.
 #pragma once
 
 #include <memory>
@@ -19,5 +19,10 @@ std::shared_ptr<const urdf::Link> bodyAt(const urdf::ModelInterface& model,
 // the link.
 std::shared_ptr<const urdf::Link> bareEnd(const urdf::ModelInterface& model, const GripperJoints& grippers,
                                           std::shared_ptr<const urdf::Link> link);
+
+// Names of frames without shapes and mass that fixed joints carry below the tip at another pose than its own,
+// the nearest first.
+std::vector<std::string> framesBelow(const urdf::ModelInterface& model,
+                                     const std::shared_ptr<const urdf::Link>& tip);
 
 } // namespace fathom

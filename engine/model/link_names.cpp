@@ -15,34 +15,39 @@ namespace fathom {
 namespace {
 
 // Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, sites of MuJoCo's models,
-// then frames of hands.
-constexpr std::array<std::string_view, 27> kToolNames{"tool0",
-                                                      "tcp",
-                                                      "tool_frame",
-                                                      "tool_tip",
-                                                      "tool_link",
-                                                      "ee_link",
-                                                      "end_effector_link",
-                                                      "ee",
-                                                      "eef",
-                                                      "end_effector",
-                                                      "link_eef",
-                                                      "link_ee",
-                                                      "grasping_frame",
-                                                      "grasp_frame",
-                                                      "attachment_site",
-                                                      "tcp_site",
-                                                      "ee_site",
-                                                      "eef_site",
-                                                      "pinch",
-                                                      "flange",
-                                                      "tool",
-                                                      "hand",
-                                                      "hand_link",
-                                                      "palm_link",
-                                                      "gripper_base_link",
-                                                      "gripper_base",
-                                                      "gripper_link"};
+// then frames of hands. New names go last, so that the robots of today keep their tips.
+constexpr std::array kToolNames = std::to_array<std::string_view>({"tool0",
+                                                                   "tcp",
+                                                                   "tool_frame",
+                                                                   "tool_tip",
+                                                                   "tool_link",
+                                                                   "ee_link",
+                                                                   "end_effector_link",
+                                                                   "ee",
+                                                                   "eef",
+                                                                   "end_effector",
+                                                                   "link_eef",
+                                                                   "link_ee",
+                                                                   "grasping_frame",
+                                                                   "grasp_frame",
+                                                                   "attachment_site",
+                                                                   "tcp_site",
+                                                                   "ee_site",
+                                                                   "eef_site",
+                                                                   "pinch",
+                                                                   "flange",
+                                                                   "tool",
+                                                                   "hand",
+                                                                   "hand_link",
+                                                                   "palm_link",
+                                                                   "gripper_base_link",
+                                                                   "gripper_base",
+                                                                   "gripper_link",
+                                                                   "endeffector_link",
+                                                                   "pinch_site"});
+
+// They count as "gripper_link", so that the frame wins if only that link has shapes.
+constexpr std::array<std::string_view, 2> kGripperFrames{"gripper_frame_link", "gripperframe"};
 
 // Also in names of links; the links "gripper" and "grasp_link" are often a wrist's.
 constexpr std::array<std::string_view, 11> kGripperWords{
@@ -71,6 +76,22 @@ std::string lowered(std::string name) {
     name = name.substr(name.rfind('/') + 1);
     std::transform(name.begin(), name.end(), name.begin(),
                    [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
+    return name;
+}
+
+bool endsWith(const std::string& name, std::string_view word) {
+    return name == word || (name.size() > word.size() + 1 && name.ends_with(word) &&
+                            name[name.size() - word.size() - 1] == '_');
+}
+
+// The name of a link as the list of tool frames has it.
+std::string toolName(const std::string& link) {
+    std::string name = lowered(link);
+    for (const std::string_view frame : kGripperFrames) {
+        if (endsWith(name, frame)) {
+            return name.replace(name.size() - frame.size(), frame.size(), "gripper_link");
+        }
+    }
     return name;
 }
 
@@ -161,19 +182,16 @@ std::vector<std::string> ownParts(const std::string& name, const std::vector<std
 } // namespace
 
 size_t toolRank(const std::string& link) {
-    const std::string name = lowered(link);
+    const std::string name = toolName(link);
     size_t best = kNoTool;
     for (size_t i = 0; i < kToolNames.size(); ++i) {
-        const std::string_view word = kToolNames[i];
-        const bool ends = name.size() > word.size() + 1 && name.ends_with(word) &&
-                          name[name.size() - word.size() - 1] == '_';
-        best = name == word || ends ? std::min(best, i) : best;
+        best = endsWith(name, kToolNames[i]) ? std::min(best, i) : best;
     }
     return best;
 }
 
 bool namesPart(const std::string& link) {
-    const std::string name = lowered(link);
+    const std::string name = toolName(link);
     const auto first = std::ranges::find(kToolNames, "flange");
     return toolRank(link) < kNoTool && std::ranges::find(kToolNames, name) == kToolNames.end() &&
            toolRank(link) >= static_cast<size_t>(first - kToolNames.begin());
