@@ -56,7 +56,7 @@ std::string fingerText(const ArmModel& model, const ArmFinger& finger) {
 
 std::vector<std::string> describeArm(const ArmSetup& setup) {
     const ArmModel& model = setup.model;
-    std::vector<std::string> lines{"base " + model.baseText, "tip " + model.tipText};
+    std::vector<std::string> lines{"base " + model.baseText + ", at base_T_arm", "tip " + model.tipText};
     for (size_t k = 0; k < model.count(); ++k) {
         lines.push_back(jointText(model, model.joints[k], setup.start[k]));
     }

@@ -286,6 +286,9 @@ ArmEnds chooseEnds(const urdf::ModelInterface& model, const std::filesystem::pat
     }
     if (base.empty()) {
         lowerBase(model, ends);
+    } else if (standsApart(*ends.base)) {
+        ends.notes.push_back("base_T_arm is the pose of " + ends.base->name + ", not of the root " +
+                             model.getRoot()->name + " above it");
     }
     return ends;
 }

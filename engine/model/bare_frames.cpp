@@ -65,4 +65,17 @@ std::vector<std::string> framesBelow(const urdf::ModelInterface& model, const Fr
     return names;
 }
 
+bool standsApart(const urdf::Link& base) {
+    const urdf::Joint* joint = base.parent_joint.get();
+    for (FramePtr link = base.getParent(); joint != nullptr; link = link->getParent()) {
+        const Pose place = poseOf(joint->parent_to_joint_origin_transform);
+        if (joint->type != urdf::Joint::FIXED || place.position != dvec3(0.0) ||
+            place.rotation != dquat(1.0, 0.0, 0.0, 0.0)) {
+            return true;
+        }
+        joint = link->parent_joint.get();
+    }
+    return false;
+}
+
 } // namespace fathom

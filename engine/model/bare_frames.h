@@ -25,4 +25,7 @@ std::shared_ptr<const urdf::Link> bareEnd(const urdf::ModelInterface& model, con
 std::vector<std::string> framesBelow(const urdf::ModelInterface& model,
                                      const std::shared_ptr<const urdf::Link>& tip);
 
+// Whether the link has another pose than the root, or may have.
+bool standsApart(const urdf::Link& base);
+
 } // namespace fathom

@@ -154,12 +154,26 @@ TEST_CASE("Links that carry the base, and those of other branches, stay where th
         twoJoints(ballLink("mast") + jointText("m", "fixed", "a", "mast", "0 0.3 0", "0 0 1")), options);
     CHECK(arm.count() == 1);
     CHECK(arm.baseText == "b (named by the scene)");
+    CHECK(arm.notes == std::vector<std::string>{"base_T_arm is the pose of b, not of the root a above it"});
     REQUIRE(arm.links == std::vector<std::string>{"b", "c", "a", "mast"});
     ArmFrames frames;
     arm.place({}, Pose{}, frames);
     CHECK(glm::distance(arm.centre(frames, 2), dvec3(0.0, 0.0, -0.2)) < 1e-12);
     CHECK(glm::distance(arm.centre(frames, 3), dvec3(0.0, 0.3, -0.2)) < 1e-12);
     CHECK(arm.leaves[3].joint == 0);
+}
+
+TEST_CASE("A base that is named has no note where it is the root, or at the same pose") {
+    const auto notes = [](const std::string& base, const std::string& at) {
+        ArmOptions options;
+        options.base = base;
+        const std::string root = "<link name='world'/>" + jointText("w", "fixed", "world", "a", at, "0 0 1");
+        return loadUrdf(twoJoints(root), options).notes;
+    };
+    CHECK(notes("world", "0 0 1").empty());
+    CHECK(notes("a", "0 0 0").empty());
+    CHECK(notes("a", "0 0 1") ==
+          std::vector<std::string>{"base_T_arm is the pose of a, not of the root world above it"});
 }
 
 TEST_CASE(
