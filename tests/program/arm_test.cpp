@@ -229,6 +229,7 @@ TEST_CASE("plan, and replay in one line, report a link with a visual but no coll
         run.err.find("arm41.urdf: tip fore (the end of the longest chain); base base (the root); arm.tip and "
                      "arm.base name others") != std::string::npos);
     CHECK(run.err.find("arm41.urdf: " + note) != std::string::npos);
+    CHECK(plan.out.find("base base (the root), at base_T_arm\n") != std::string::npos);
     CHECK(plan.out.find(
               "        joint elbow: revolute, -2.4 to -0.05 rad (file), 1 rad/s (file), starts at -0.05\n") !=
           std::string::npos);
