@@ -34,6 +34,23 @@ dvec3 upright(const dvec3& p, char up) {
     return up == 'x' ? dvec3(-p.z, p.y, p.x) : p;
 }
 
+// Throws for a unit of a .dae that is no size: the library would take 1 m for what it cannot read, and mirror
+// the mesh for a negative one.
+void checkDaeUnit(const std::filesystem::path& file) {
+    const std::string text = endingOf(file) == ".dae" ? readFileAtMost(file, kLargestMesh).value_or("") : "";
+    for (XmlTags tags(text); tags.next() && !tags.tag().name.starts_with("library_");) {
+        const bool unit = tags.tag().name == "unit" && tags.path() == "COLLADA/asset";
+        const std::string metre = unit ? xmlAttribute(tags.tag().text, "meter") : "";
+        std::string number = metre.substr(metre.starts_with('+') ? 1 : 0);
+        std::ranges::replace(number, ',', '.'); // of exporters in some locales
+        double value = 1.0;
+        if (!metre.empty() && !(parseWhole(number, value) && value > 0.0 && std::isfinite(value))) {
+            throw BadInput(file.string(), "unit", "meter=\"" + printable(metre) + "\"",
+                           "metres per unit, above 0");
+        }
+    }
+}
+
 TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOptions& reader) {
     const std::string kinds = "a readable STL, OBJ or COLLADA (.dae) mesh";
     if (!isRegularFile(file)) {
@@ -56,6 +73,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     }
     refuseStandIn(file, kinds);
     noteInput(file);
+    checkDaeUnit(file);
     auto [mesh, fault] = importTriangles(file, reader);
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);
@@ -68,22 +86,9 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     return mesh;
 }
 
-// A .dae may state a unit of nothing, which leaves no area.
-void checkDaeUnit(const std::string& file) {
-    const std::string text = endingOf(file) == ".dae" ? readFileAtMost(file, kLargestMesh).value_or("") : "";
-    for (XmlTags tags(text); tags.next();) {
-        const std::string metre = tags.tag().name == "unit" ? xmlAttribute(tags.tag().text, "meter") : "";
-        double value = 1.0;
-        if (!metre.empty() && parseWhole(metre, value) && !(value > 0.0)) {
-            throw BadInput(file, "unit", "meter=\"" + printable(metre) + "\"", "metres per unit, above 0");
-        }
-    }
-}
-
 // Returns the extent.
 double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrdf) {
     if (mesh.triangles.empty()) {
-        checkDaeUnit(file);
         throw BadInput(file, "triangles", "none with an area", "at least 1");
     }
     const dvec3 size = mesh.high() - mesh.low();
