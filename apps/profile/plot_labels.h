@@ -34,8 +34,8 @@ std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests);
 void addLine(glm::dvec2 a, glm::dvec2 b, std::vector<PlotBox>& taken);
 
 // One place per request, in order; earlier requests get better places. `taken`: boxes that no label may
-// overlap, including those of points and lines. Labels do not overlap while `room` has a free place. After that, a label
-// goes next to its point anyway, because none is dropped.
+// overlap, including those of points and lines. Labels do not overlap while `room` has a free place. After
+// that, a label goes next to its point anyway, because none is dropped.
 std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken);
 

@@ -19,8 +19,8 @@ struct TracesLabels {
 };
 
 // 1600 x 1000 pixels, two panels with one time axis [s]. The background is sand in contact, blue with
-// guidance, hatched red when escaping or trapped (a few ticks: a mark at the axis), grey when off or fading. Accepts runs of any length, also
-// empty ones. Throws Error that names the file.
+// guidance, hatched red when escaping or trapped (a few ticks: a mark at the axis), grey when off or fading.
+// Accepts runs of any length, also empty ones. Throws Error that names the file.
 void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels);
 
 } // namespace fathom

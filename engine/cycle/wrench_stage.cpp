@@ -43,7 +43,8 @@ dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filt
     return kept + clampLength(sized - kept, std::max(calm, tail));
 }
 
-// True if `felt` is more than the pull of guidance, in size or in another direction: what pushed before fades.
+// True if `felt` is more than the pull of guidance, in size or in another direction: what pushed before
+// fades.
 bool hasTail(const dvec3& felt, const dvec3& pull) {
     const double size = glm::length(pull);
     return glm::length(felt) > size + kNoTail ||

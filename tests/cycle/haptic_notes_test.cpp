@@ -40,6 +40,23 @@ bool warns(const Scene& scene, const std::string& part) {
 
 } // namespace
 
+TEST_CASE("Damping that ticks cannot follow on a light device is named where the device's own is unknown") {
+    Scene scene = handScene("touch");
+    const std::string part = "haptics.damping: ";
+    for (const double damping : {0.0, 10.0, 19.9}) {
+        scene.haptics.damping = damping;
+        CHECK(forceWarnings(scene).empty());
+    }
+    scene.haptics.damping = 100.0;
+    CHECK(warns(scene, part + "100 N s/m at the hand, over the 20 N s/m that are safe at this rate_hz"));
+    scene.haptics.damping = 10.0;
+    scene.haptics.delay = 1; // a third of it
+    CHECK(warns(scene, part));
+    scene.haptics.delay = 0;
+    scene.hand.scale = 3.0; // the hand feels three times as much
+    CHECK(warns(scene, part));
+}
+
 TEST_CASE("A stiffness that leaves the pull of guidance no spring is named with the one that does") {
     const std::string part = "haptics.guidance: paper pulls with a spring of ";
     for (const double stiffness : {479.0, 480.0, 1000.0}) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// New data takes some of the regions that press. The others, and friction on them, do not let the tool jump.
+// New data takes some of the regions that press. Friction on the others does not let the tool jump.
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
-#include <utility>
 
 using namespace fathom;
 using namespace fathom::testing;
