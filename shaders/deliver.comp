@@ -1,11 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Ends a frame: copies counters and patch marks to buffers that the host reads, then clears them, so the next
-// frame needs no clearing pass. One invocation per word. With kTree it also ends the region tree: it empties
-// the nodes of unlisted patches, and the group that finishes last builds the levels above the patches. So the
-// tree costs no dispatch of its own.
+// frame needs no clearing pass. One invocation per word. With kTree it also empties the bounds of unlisted
+// patches.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
@@ -17,12 +15,8 @@ layout(std430, binding = 0) buffer Counters { uint counters[]; }; // words of Fr
 layout(std430, binding = 1) buffer Listed { uint listed[]; };     // patch -> kPatch bits
 layout(std430, binding = 2) writeonly buffer SetCounters { uint setCounters[]; };
 layout(std430, binding = 3) writeonly buffer SetListed { uint setListed[]; };
-layout(std430, binding = 4) coherent buffer Nodes { vec4 nodes[]; };
-layout(std430, binding = 5) coherent buffer NodeCounts { uint nodeCounts[]; };
-
-#include "shaders/lib/tree.glsl"
-
-shared uint groupsBefore; // that are done
+layout(std430, binding = 4) writeonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = 5) writeonly buffer NodeCounts { uint nodeCounts[]; };
 
 // The initial value of a counter word: 1 for y and z of indirect arguments, else 0.
 uint initialValue(uint word) {
@@ -30,47 +24,23 @@ uint initialValue(uint word) {
 }
 
 void emptyNode(uint patchIndex) {
-    uint node = tree.levels[1].z + patchIndex;
-    nodes[node] = vec4(0.0, 0.0, 0.0, -1.0);
-    nodeCounts[node] = 0u;
-}
-
-// True in the group that finishes last, which sees the nodes that all groups wrote. Called by the whole
-// group. barrier() orders shared memory only. So the invocation that counts has its own memory barriers next
-// to the atomic, which release the nodes of its whole group, and all have one after the last barrier().
-bool finishesLast() {
-    memoryBarrierBuffer();
-    barrier();
-    if (gl_LocalInvocationID.x == 0u) {
-        memoryBarrierBuffer();
-        groupsBefore = atomicAdd(counters[kDeliveredWord], 1u);
-        memoryBarrierBuffer();
-    }
-    barrier();
-    memoryBarrierBuffer();
-    return groupsBefore == gl_NumWorkGroups.x - 1u;
+    nodes[tree.firstPatch + patchIndex] = vec4(0.0, 0.0, 0.0, -1.0);
+    nodeCounts[tree.firstPatch + patchIndex] = 0u;
 }
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < counters.length() && i != kDeliveredWord) {
+    if (i < counters.length()) {
         setCounters[i] = counters[i];
         counters[i] = initialValue(i);
     }
     if (i < listed.length()) {
         // listed.length() also counts the words that pad the buffer
-        bool isPatch = i < tree.levels[1].x * tree.levels[1].y;
+        bool isPatch = i < tree.patches;
         if (kTree != 0u && isPatch && listed[i] == 0u) {
             emptyNode(i);
         }
         setListed[i] = listed[i];
         listed[i] = 0;
-    }
-    if (kTree == 0u) {
-        return;
-    }
-    if (finishesLast()) {
-        counters[kDeliveredWord] = 0u;
-        buildAbovePatches();
     }
 }

@@ -1,24 +1,26 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Builds the region tree on CPU devices: one invocation per patch, or all levels above the patches by one
-// group, with barriers between them. On GPUs `spheres` and `deliver` build these levels.
+// Bounds the patches on CPU devices, one invocation per patch: centre = mean of all spheres below, radius =
+// max(|c_k - centre| + r_k) over its 4x4 sub-patches (paper eq. 3). On GPUs `spheres` bounds them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = kSpecGroupSize) in;
-layout(constant_id = kSpecPatches) const uint kPatches = 0;
 
 layout(push_constant) uniform Push { TreeParams tree; };
 layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
-layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
-layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
-// With kPatches: nodes and counts of the sub-patches, four counts per texel.
+layout(std430, binding = 1) writeonly buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = 2) writeonly buffer NodeCounts { uint nodeCounts[]; };
+// Nodes and counts of the sub-patches, four counts per texel.
 layout(binding = 3) uniform samplerBuffer subNodes;
 layout(binding = 4) uniform usamplerBuffer subCounts;
 
-#include "shaders/lib/tree.glsl"
+struct Children {
+    vec4 node[16];
+    uint count[16];
+};
 
 Children subPatchesOf(uint patchIndex) {
     Children c;
@@ -37,13 +39,27 @@ Children subPatchesOf(uint patchIndex) {
     return c;
 }
 
-void main() {
-    if (kPatches == 0) {
-        buildAbovePatches();
-        return;
+// All children are read before the first use: a node costs one memory latency instead of 32.
+void buildNode(uint node, Children below) {
+    vec3 sum = vec3(0.0);
+    uint count = 0;
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        sum += below.count[k] != 0 ? below.node[k].xyz * float(below.count[k]) : vec3(0.0);
+        count += below.count[k];
     }
+    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
+    float radius = -1.0;
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        float reach = distance(below.node[k].xyz, centre) + below.node[k].w;
+        radius = below.count[k] != 0 ? max(radius, reach) : radius;
+    }
+    nodes[node] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+    nodeCounts[node] = count;
+}
+
+void main() {
     uint patchIndex = gl_GlobalInvocationID.x;
-    if (patchIndex < tree.levels[1].x * tree.levels[1].y) {
-        buildNode(1u, patchIndex, subPatchesOf(patchIndex));
+    if (patchIndex < tree.patches) {
+        buildNode(tree.firstPatch + patchIndex, subPatchesOf(patchIndex));
     }
 }

@@ -115,8 +115,11 @@ TreeAgreement treeAgreement(const PassRig& rig) {
     auto levels = rig.tree();
     TreeAgreement a;
     compareBounds(levels[0], checkLeaves(rig, levels[0], a), a);
-    for (size_t l = 1; l < levels.size(); ++l) {
-        compareBounds(levels[l], reference::parents(rig.layout(), l, levels[l - 1]), a);
+    compareBounds(levels[1], reference::parents(rig.layout(), 1, levels[0]), a);
+    auto above = levels[1];
+    for (size_t l = 2; l < rig.layout().levels.size(); ++l) {
+        above = reference::parents(rig.layout(), l, above);
+        a.nodes += static_cast<uint64_t>(std::ranges::count_if(above, &reference::Bound::count));
     }
     for (auto& level : levels) { // float32 about the origin: exact in float64
         for (reference::Bound& b : level) {

@@ -27,7 +27,7 @@ SphereAgreement sphereAgreement(const PassRig& rig);
 
 // Each level's twin is made from the device's level below; the lowest from the spheres, held ones included.
 struct TreeAgreement {
-    uint64_t nodes = 0;   // that both have
+    uint64_t nodes = 0;   // bounds that both have, and nodes of the levels above, which the host counts
     uint64_t escaped = 0; // spheres outside their sub-patch's bound
     uint64_t wrong = 0;   // counts that differ, and bounds with a radius but no sphere
     double centre = 0.0,

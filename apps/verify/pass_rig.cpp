@@ -174,7 +174,7 @@ std::vector<std::vector<reference::Bound>> PassRig::tree() const {
     const auto nodes = readBack<glm::vec4>(device_, set().device.nodes);
     const auto counts = readBack<uint32_t>(device_, set().device.nodeCounts);
     const auto work = listed();
-    std::vector<std::vector<reference::Bound>> levels(layout().levels.size());
+    std::vector<std::vector<reference::Bound>> levels(2);
     for (size_t l = 0; l < levels.size(); ++l) {
         for (uint32_t i = 0; i < layout().levels[l].across * layout().levels[l].down; ++i) {
             const uint32_t u = i % layout().levels[l].across, v = i / layout().levels[l].across;

@@ -124,8 +124,8 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
         }
     }
     if (plan.tree) {
-        nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
-        nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
+        nodes = Buffer(device, layout.bounds() * 16ull, MemoryKind::Device, "nodes");
+        nodeCounts = Buffer(device, layout.bounds() * 4ull, MemoryKind::Device, "nodeCounts");
     }
     if (plan.pack) {
         packed = Buffer(device, slots * plan.packedBytes(), MemoryKind::Readback, "packed");

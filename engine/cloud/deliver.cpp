@@ -6,17 +6,14 @@
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
-#include <cstddef>
 
 namespace fathom::cloud {
 
 using namespace shared;
 
 PassInfo deliverPass(const CloudContext& c) {
-    static_assert(offsetof(FrameCounters, delivered) == kDeliveredWord * sizeof(uint32_t));
     const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
-    const uint32_t group =
-        c.plan.tree ? std::max(c.plan.subPatchGroup, c.plan.pixelGroup) : c.plan.subPatchGroup;
+    const uint32_t group = c.plan.subPatchGroup;
     return {"deliver",
             deliver_spv,
             {&WorkBuffers::counters, &WorkBuffers::listed, &SetBuffers::counters, &SetBuffers::listed,

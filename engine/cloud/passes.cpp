@@ -204,8 +204,7 @@ PassInfo moments(const CloudContext& c) {
             c.plan.spheres ? After::Nothing : After::Barrier}; // `spheres` does not read its results
 }
 
-// Builds the level of patches, or all levels above it in one group.
-PassInfo treeLevels(const CloudContext& c, bool patches) {
+PassInfo tree(const CloudContext& c) {
     const uint32_t group = c.plan.subPatchGroup;
     return {"tree",
             tree_spv,
@@ -214,8 +213,8 @@ PassInfo treeLevels(const CloudContext& c, bool patches) {
              &Set::nodeCounts,
              {&Set::nodes, kVec4Texels},
              {&Set::nodeCounts, VK_FORMAT_R32G32B32A32_UINT}},
-            {{kSpecGroupSize, group}, {kSpecPatches, patches}},
-            groupsFor(patches ? c.layout.patches() : 1, group),
+            {{kSpecGroupSize, group}},
+            groupsFor(c.layout.patches(), group),
             After::Barrier,
             treeParams(c.layout)};
 }
@@ -223,13 +222,7 @@ PassInfo treeLevels(const CloudContext& c, bool patches) {
 } // namespace
 
 shared::TreeParams treeParams(const PatchLayout& layout) {
-    TreeParams params{};
-    const auto levels = static_cast<uint32_t>(layout.levels.size());
-    for (uint32_t l = 0; l < levels; ++l) {
-        params.levels[l] = {layout.levels[l].across, layout.levels[l].down, layout.levels[l].first, 0};
-    }
-    params.run.x = levels;
-    return params;
+    return {layout.patches(), layout.levels[1].first};
 }
 
 std::vector<PassInfo> framePasses(const CloudContext& c) {
@@ -249,10 +242,7 @@ std::vector<PassInfo> framePasses(const CloudContext& c) {
     if (c.plan.spheres) {
         std::ranges::move(spherePasses(c), std::back_inserter(passes));
     }
-    if (c.plan.tree && !c.plan.byPixel) {
-        passes.push_back(treeLevels(c, true));
-        passes.push_back(treeLevels(c, false));
-    }
+    add(c.plan.tree && !c.plan.byPixel, tree);
     return passes;
 }
 

@@ -68,9 +68,6 @@ std::vector<Bound> parents(const PatchLayout& layout, size_t level, const std::v
 }
 
 std::string validateTree(const PatchLayout& layout, const std::vector<std::vector<Bound>>& levels) {
-    if (levels.size() != layout.levels.size() || levels.back().size() != 1) {
-        return "the tree has no single root";
-    }
     for (size_t level = 1; level < levels.size(); ++level) {
         for (uint32_t v = 0; v < layout.levels[level].down; ++v) {
             for (uint32_t u = 0; u < layout.levels[level].across; ++u) {

@@ -180,11 +180,11 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
-    // them in one group, unless `spheres` and `deliver` build them
+    // classify and surface; patches that hold nothing, then those that do; the bounds of patches, unless
+    // `spheres` makes them
     return (occlusion ? 1u : 0u) + (passes ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
            (estimates ? 1u : 0u) + (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) +
-           (tree && lists() ? 2u : 0u) + (moments ? 1u : 0u);
+           (tree && lists() ? 1u : 0u) + (moments ? 1u : 0u);
 }
 
 uint64_t Plan::momentBytes(const PatchLayout& layout) {
@@ -200,7 +200,7 @@ uint64_t Plan::setBytes(const PatchLayout& layout) const {
     return sizeof(shared::FrameCounters) + 4 * patches + // patch marks
            (spheres ? 64 * patches : 0) +                // one word of pixel bits per sub-patch
            (spheres && tree ? spheresOfTree : 0) +
-           (tree ? 20ull * layout.nodes() : 0) +               // bound and count of each node
+           (tree ? 20ull * layout.bounds() : 0) +              // bound and count of each node
            (pack ? slots * packedBytes() + 72 * patches : 0) + // places (64) and run (8) of each patch
            (moments ? momentBytes(layout) : 0) + (guidancePoints ? 17 * slots : 0); // point and class bits
 }

@@ -112,7 +112,8 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
 // other than `radius` [m]. 0 = unknown: fans, distorted and very wide lenses.
 double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 
-// Size of the image in 16x16 patches, and of each level of the region tree.
+// Size of the image in 16x16 patches, and of each level of a tree over them. The device stores the bounds of
+// levels 0 and 1, which queries search; frames.csv counts the nodes of all levels.
 struct PatchLayout {
     uint32_t across = 0, down = 0;
     // One level: nodes across and down, index of the first.
@@ -122,6 +123,7 @@ struct PatchLayout {
     std::vector<Level> levels; // 0 = 4x4 pixels, 1 = patches, ..., last = root
     uint32_t patches() const { return across * down; }
     uint32_t slots() const { return patches() * 256; }
+    uint32_t bounds() const { return 17 * patches(); } // of levels 0 and 1
     uint32_t nodes() const { return levels.back().first + levels.back().across * levels.back().down; }
 };
 // Layout for a depth image [pixels]. Throws BadInput when it is empty or larger than 3840x2160.

@@ -128,7 +128,7 @@ void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                   : plan.packsDepths() ? "of one fixture set; one depth per seen sphere"
                   : plan.pack          ? "of one fixture set"
                                        : "the host reads radii with the points");
-    explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
+    explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.bounds(),
                   plan.tree ? "of one fixture set" : "no query traverses a tree");
     explainBuffer(plan, "moments", plan.moments, Plan::momentBytes(layout), "of one fixture set");
     explainBuffer(plan, "fixture sets", plan.passes, kFixtureSets * plan.setBytes(layout),

@@ -43,7 +43,6 @@ FATHOM_CONST kSpecSubPatchGroup = 30; // group size of the sub-patch passes
 FATHOM_CONST kSpecTexels = 31;        // the memory of points is read as texels
 FATHOM_CONST kSpecPack = 32;          // the host reads packed runs
 FATHOM_CONST kSpecShared = 33;        // moments of sub-patches are merged in shared memory
-FATHOM_CONST kSpecPatches = 34;       // `tree` builds the level of patches
 // Measurements of the device.
 FATHOM_CONST kSpecRounds = 35; // rounds of four multiply-adds per chain
 FATHOM_CONST kSpecCopy = 36;   // 1: `stream` copies; 0: it sums

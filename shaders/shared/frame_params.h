@@ -86,8 +86,7 @@ struct FrameCounters {
     uvec4 withHeldGroups;    // the same for listed patches with held points
     uint subs;               // 4x4 sub-patches with a sphere
     uint packedWords;        // words in all runs (packing.glsl)
-    uint delivered;          // groups of `deliver` that are done; that pass alone uses it
-    uint pad;
+    uint pad[2];
     uint classPixels[kMaxClasses]; // marked pixels per class
     uint leakSpacing[kMaxClasses]; // per class: float bits of the largest spacing [m] between neighbours that
                                    // is >= R; 0 = none
@@ -96,7 +95,6 @@ struct FrameCounters {
                                      // 0 = none. Only with a tree
 };
 FATHOM_SIZE(FrameCounters, 224);
-FATHOM_CONST kDeliveredWord = 22; // FrameCounters::delivered
 
 // Moments of one guidance class in one patch, about their mean = anchor + offset. A single float32 mean would
 // lose digits that the covariance of a small class needs.
@@ -108,14 +106,12 @@ struct PatchMoments {
 };
 FATHOM_SIZE(PatchMoments, 64);
 
-// Levels of the region tree: 0 = 4x4 pixels (patch-major), 1 = patches, then 4x4 of the level below up to one
-// root.
-FATHOM_CONST kMaxLevels = 6;
+// The device's bounds of spheres: those of 4x4 pixels, in the order of the patches, then those of the patches.
 struct TreeParams {
-    uvec4 levels[kMaxLevels]; // nodes across, down; index of the first node; -
-    uvec4 run;                // number of levels; -, -, -
+    uint patches;    // their number
+    uint firstPatch; // index of the first one's node
 };
-FATHOM_SIZE(TreeParams, 112);
+FATHOM_SIZE(TreeParams, 8);
 
 FATHOM_SHARED_END
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares the region tree with the validator and the float64 twin.
+// Compares the bounds of spheres and patches with the validator and the float64 twin.
 #include "apps/verify/pass_agreement.h"
 #include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
@@ -18,8 +18,12 @@ verify::TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
     const verify::TreeAgreement a = verify::treeAgreement(rig);
     const auto levels = rig.tree();
     CHECK(a.fault == "");
-    CHECK(levels.back().size() == 1);
-    CHECK(levels.back()[0].count == report.counts.spheres);
+    uint32_t spheres = 0;
+    for (const reference::Bound& patch : levels[1]) {
+        spheres += patch.count;
+    }
+    CHECK(levels[1].size() == rig.layout().patches());
+    CHECK(spheres == report.counts.spheres);
     CHECK(report.counts.nodes == a.nodes);
     CHECK(a.escaped == 0);
     CHECK(a.wrong == 0);
@@ -31,15 +35,14 @@ void withTree(Plan& plan) {
     plan.tree = true;
 }
 
-// As GPUs build it: within the passes `spheres` and `deliver`.
+// As GPUs make them: within the passes `spheres` and `deliver`.
 void withTreeByPatch(Plan& plan) {
     plan.tree = plan.byPixel = plan.pack = true;
 }
 
 } // namespace
 
-TEST_CASE("Every leaf sphere is inside its sub-patch and every child inside its parent, up to one root, for "
-          "every size") {
+TEST_CASE("Every sphere is inside its sub-patch and every sub-patch inside its patch, for every size") {
     verify::TreeAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
@@ -57,7 +60,7 @@ TEST_CASE("Every leaf sphere is inside its sub-patch and every child inside its 
 }
 
 TEST_CASE(
-    "The tree is valid for tall, wide and odd frames with held points, as CPU devices and as GPUs build it") {
+    "Bounds are valid for tall, wide and odd frames with held points, as CPU devices and as GPUs make them") {
     for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
              {16u, 16u}, {17u, 16u}, {64u, 64u}, {65u, 64u}, {300u, 5u}, {5u, 300u}, {257u, 129u}}) {
         for (const auto change : {withTree, withTreeByPatch}) {
@@ -79,7 +82,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never returns") {
+TEST_CASE("Patches without spheres are empty, and old data of unlisted patches never returns") {
     for (const auto change : {withTree, withTreeByPatch}) {
         CAPTURE((change == withTree));
         const CameraInfo camera = pinholeCamera(100, 80);
@@ -94,12 +97,12 @@ TEST_CASE("A set without spheres has an empty root, and old data of unlisted pat
         }
         const FrameReport none = rig.run(drawnImage(camera, [](int, int) { return 0.0; }));
         CHECK(none.counts.nodes == 0);
-        CHECK(rig.tree().back()[0].radius < 0.0);
+        CHECK(std::ranges::all_of(rig.tree()[1], [](const auto& patch) { return patch.radius < 0.0; }));
         checkTree(rig, none);
     }
 }
 
-TEST_CASE("A frame writes no node beyond those of its tree") {
+TEST_CASE("A frame writes no node beyond those of its patches") {
     constexpr uint32_t kMark = 7;
     const CameraInfo camera = pinholeCamera(16, 16); // one patch, with padding behind its mark and its nodes
     CloudRig rig(plainScene(), camera, withTreeByPatch);
@@ -118,14 +121,14 @@ TEST_CASE("A frame writes no node beyond those of its tree") {
             continue;
         }
         const auto counts = verify::readBack<uint32_t>(vulkan().device, buffer);
-        REQUIRE(counts.size() > rig.layout().nodes());
-        CHECK(std::all_of(counts.begin() + static_cast<std::ptrdiff_t>(rig.layout().nodes()), counts.end(),
+        REQUIRE(counts.size() > rig.layout().bounds());
+        CHECK(std::all_of(counts.begin() + static_cast<std::ptrdiff_t>(rig.layout().bounds()), counts.end(),
                           [](uint32_t count) { return count == kMark; }));
     }
     CHECK(marked.size() < 8);
 }
 
-TEST_CASE("Without a GPU query no tree is built, but its nodes are counted") {
+TEST_CASE("Without a GPU query no bounds are made, but nodes are counted alike") {
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig with(c.scene, c.camera, withTree), without(c.scene, c.camera);
