@@ -233,7 +233,7 @@ private:
                              " joints; arm.tip selects another: " + firstOf(names));
     }
 
-    // Frames farther on, one of which may be meant as the tool's.
+    // Frames farther on: one may be meant as the tool's.
     void noteFrames(ArmEnds& ends) const {
         const std::vector<std::string> frames = framesBelow(model_, ends.tip);
         if (!frames.empty()) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_warnings.h"
 
+#include "engine/types/printed.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -31,9 +33,8 @@ std::string limitFault(const urdf::JointLimits* limits) {
     if (limits == nullptr) {
         return "no limits";
     }
-    std::ostringstream values;
-    values << "lower " << limits->lower << ", upper " << limits->upper;
-    return limits->lower <= limits->upper ? "" : values.str();
+    return limits->lower <= limits->upper ? ""
+                                          : printed("lower %.15g, upper %.15g", limits->lower, limits->upper);
 }
 
 std::string speedWarning(const std::string& joint, bool slides, double stated) {

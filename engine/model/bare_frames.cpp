@@ -4,7 +4,10 @@
 #include "engine/model/gripper_joints.h"
 #include "engine/model/link_names.h"
 #include "engine/model/urdf_file.h"
+#include "engine/types/lower_case.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 namespace fathom {
@@ -15,6 +18,15 @@ using FramePtr = std::shared_ptr<const urdf::Link>;
 
 bool isBareFrame(const urdf::Link& link) {
     return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
+}
+
+// False for the places of sensors and tendons, and for names that no file states (two underscores).
+bool mayBeTool(const std::string& name) {
+    constexpr std::array kOthers{"__",      "camera", "force",  "imu",   "lidar",
+                                 "optical", "sensor", "tendon", "torque"};
+    const std::string lower = lowerCase(name);
+    return std::ranges::none_of(kOthers,
+                                [&](const char* word) { return lower.find(word) != std::string::npos; });
 }
 
 } // namespace
@@ -52,7 +64,7 @@ std::vector<std::string> framesBelow(const urdf::ModelInterface& model, const Fr
     for (size_t at = 0; at < open.size(); ++at) {
         const auto [link, tipTlink] = open[at];
         const bool apart = tipTlink.position != dvec3(0.0) || tipTlink.rotation != dquat(1.0, 0.0, 0.0, 0.0);
-        if (apart && isBareFrame(*link)) {
+        if (apart && isBareFrame(*link) && mayBeTool(link->name)) {
             names.push_back(link->name);
         }
         for (const auto& joint : link->child_joints) {

@@ -19,7 +19,7 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kHeader = "fathom cover 4"; // raise the number when covers or this format change
+constexpr const char* kHeader = "fathom cover 5"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
 
 // Fowler-Noll-Vo, 64 bits; two of them with different starts make a key.

@@ -162,7 +162,7 @@ std::string faultOf(const std::vector<std::string>& errors, const std::string& t
     return errors[0] + (named == errors.end() ? mimicWith(errors[0], text) : "; " + *named);
 }
 
-// What the parser would accept in place of what it reports.
+// What the parser would accept instead of the value that it reports.
 std::string allowedFor(const std::string& fault) {
     constexpr std::array<std::array<const char*, 2>, 4> kAllowed{
         {{"does not specify limits",

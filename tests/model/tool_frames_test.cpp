@@ -62,6 +62,8 @@ TEST_CASE("Frames without shapes below the chosen tip are named in a note") {
     CHECK(notes(frame("hand", "a") + frame("hand", "same", "0 0 0") + frame("same", "b")) ==
           std::vector<std::string>{
               "frames without shapes are fixed to the tip hand; arm.tip selects one: a, b"});
+    CHECK(notes(frame("hand", "camera_link") + frame("hand", "force_site") + frame("hand", "hand__site"))
+              .empty());
     std::string many;
     for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "i"}) {
         many += frame("hand", name);
