@@ -158,8 +158,12 @@ bool Canvas::shoot(Console& console) {
         std::filesystem::create_directories(shots_, ignored);
         const std::unique_ptr<Image> image = frameImage(console);
         if (!image) {
+            if (!std::exchange(waits_, true)) {
+                console.notify("screenshot: waits until the window is drawn");
+            }
             return false;
         }
+        waits_ = false;
         image->writePng(file);
         ++console.status.shots;
         console.notify("screenshot " + file.string());

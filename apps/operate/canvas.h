@@ -43,7 +43,8 @@ public:
     Counts counts() const;
 
 private:
-    struct OnDevice; // surface, swapchain, painter
+    bool waits_ = false; // a screenshot, for a frame that is drawn
+    struct OnDevice;     // surface, swapchain, painter
     void draw(const Console& console, bool newSwapchain, std::span<const Layer> layers,
               const std::function<bool()>& busy); // needs a device
     bool shoot(Console& console);                 // false: this frame was not drawn

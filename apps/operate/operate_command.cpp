@@ -85,7 +85,7 @@ void runOperate(OperateOptions& options, const GlobalOptions& global) {
         options.recording = options.recording.empty() ? options.scene.string() : options.recording;
         options.scene /= "scene.yaml";
         if (!std::filesystem::exists(options.scene)) {
-            throw BadInput(options.recording, "scene.yaml", "none",
+            throw BadInput(options.scene.parent_path().string(), "scene.yaml", "none",
                            "a scene file, or a folder that the window recorded; other recordings are opened "
                            "by operate SCENE --recording FOLDER");
         }

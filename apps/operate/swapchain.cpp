@@ -93,7 +93,7 @@ bool Swapchain::fit(VkExtent2D wanted) {
     if (wanted.width == 0 || wanted.height == 0) {
         return false;
     }
-    if (!lost_ && wanted.width == size_.width && wanted.height == size_.height) {
+    if (!lost_ && wanted.width == asked_.width && wanted.height == asked_.height) {
         return true;
     }
     VkSurfaceCapabilitiesKHR can;
@@ -108,6 +108,7 @@ bool Swapchain::fit(VkExtent2D wanted) {
     if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0) {
         throw Error("the window's images cannot be copied to");
     }
+    asked_ = wanted;
     return create(can, size);
 }
 

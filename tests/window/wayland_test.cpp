@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window in a session of Wayland that also offers X.
+// The window in a session of Wayland that also offers X. GLFW before 3.4 has X only, so there this holds
+// whatever the program asks for.
 #include "tests/support/scratch_folder.h"
 #include "tests/window/window_rig.h"
 
