@@ -132,7 +132,7 @@ void warnDamping(std::vector<std::string>& warnings, const HapticOptions& option
     const CouplingOptions& coupling = options.coupling;
     const double atHand = coupling.damping * coupling.handScale;
     const double most =
-        PassivityController::kMaxImpulse / (coupling.period * (1.0 + 2.0 * coupling.delayTicks));
+        PassivityController::kMaxImpulse / (coupling.period * (1.0 + 2.0 * options.deviceDelayTicks));
     if (!options.device.damping && atHand > most) {
         warnings.push_back(
             "haptics.damping: " + significant(atHand, 4) + " N s/m at the hand, over the " +
