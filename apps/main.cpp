@@ -105,7 +105,7 @@ int run(int argc, char** argv) {
     fathom::refuseEmptyValues(app);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         fathom::refuseEmptyValues(*command);
-        command->footer("Options of every subcommand, such as --device and --verbose: fathom --help");
+        command->footer("Options of every subcommand, such as --trace and --verbose: fathom --help");
     }
     try {
         app.parse(argc, argv);

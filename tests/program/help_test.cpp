@@ -30,7 +30,7 @@ TEST_CASE("The help of each subcommand says where the options of every subcomman
     for (const char* command : {"replay", "operate", "guard", "plan", "profile"}) {
         CAPTURE(command);
         const std::string help = runFathom({command, "--help"}).out;
-        CHECK(help.find("\nOptions of every subcommand, such as --device and --verbose: fathom --help\n") !=
+        CHECK(help.find("\nOptions of every subcommand, such as --trace and --verbose: fathom --help\n") !=
               std::string::npos);
     }
 }
