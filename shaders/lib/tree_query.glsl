@@ -84,7 +84,7 @@ void listLeaves(vec4 bound) {
     barrier();
 }
 
-// The leaf as it stands in the answer.
+// The leaf as the answer names it.
 uint withBand(uint leaf, vec4 a, vec4 b) {
     float gap = gapBetween(a, b);
     precise float low = (gap - query.margin) * query.bandsPerMetre;

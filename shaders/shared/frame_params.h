@@ -106,7 +106,8 @@ struct PatchMoments {
 };
 FATHOM_SIZE(PatchMoments, 64);
 
-// The device's bounds of spheres: those of 4x4 pixels, in the order of the patches, then those of the patches.
+// The device's bounds of spheres: those of 4x4 pixels, in the order of the patches, then those of the
+// patches.
 struct TreeParams {
     uint patches;    // their number
     uint firstPatch; // index of the first one's node

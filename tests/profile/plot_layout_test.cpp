@@ -61,7 +61,7 @@ TEST_CASE("Every point of a crowded panel gets a label that overlaps no other la
     CHECK(alone.front().beside);
 }
 
-TEST_CASE("Labels lie on no line of their plot") {
+TEST_CASE("No label covers a line of its plot") {
     const PlotBox room{0.0, 0.0, 600.0, 400.0};
     const std::vector<glm::dvec2> corners{{20.0, 50.0},   {200.0, 50.0},  {200.0, 200.0},
                                           {320.0, 200.0}, {320.0, 330.0}, {560.0, 380.0}};
