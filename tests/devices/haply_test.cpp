@@ -129,8 +129,8 @@ TEST_CASE("Late answers of the service are dropped, and never make the hand's po
     Loop loop(service.port());
     REQUIRE(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.1; }));
     for (const double z : {0.2, 0.3, 0.4}) {
+        service.hold = true; // first: an answer with the next pose must not go out before
         service.z = -z;
-        service.hold = true;
         const uint64_t asked = service.messages;
         REQUIRE(eventually([&] { return service.messages > asked + 3; }));
         service.z = z;
