@@ -26,7 +26,7 @@ public:
 
     // Asks about pairs at the very limits of reach and bands, which a device with other arithmetic than
     // Vulkan's would miss or get wrong. True when all are right. shorter: searches a reach that is shorter by
-    // this [m]. margins: times the margin of the bands. Drops the tool.
+    // this [m]. margins: a factor of the margin of the bands. Drops the tool.
     bool passesProbe(double shorter = 0.0, float margins = 1.0f);
 
 private:
