@@ -40,6 +40,7 @@ struct PointDigits {
     bool count() const;
     bool mayCount() const { return oneWhole && front < kStampDigits; } // as cam1.8 and cam1.9
 };
+// As without names if one has no number.
 PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names);
 
 // numbersIn() of each name. A point is no decimal point where these names count behind it; nor where those of

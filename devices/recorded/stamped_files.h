@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// One line.
 struct StampedFile {
     double stamp = 0.0; // [s]
     std::filesystem::path file;

@@ -22,7 +22,8 @@ inline constexpr double kBend = 0.01;
 // Cosines of the angles from the nearest sphere's normal between which a sphere belongs to another surface
 // and does not count, as at the other wall of a corner. Within 36 degrees spheres of similar size count in
 // full. Opposite ones, beyond 120 degrees, do so too: planes must not hold a leaf from both sides of a slot.
-inline constexpr double kOtherSurface = 0.70710678118654752, kOpposite = -0.4;
+inline constexpr double kOtherSurface = 0.70710678118654752,
+                        kOpposite = -0.4; // beyond this one they count again
 
 // Plane for a leaf at `centre` over the surface whose nearest sphere has this tangent, at a gap >= 0. run:
 // pairs of the leaf, complete up to that gap + depth. False where a sphere that counts is nearer, and where

@@ -10,7 +10,8 @@ FATHOM_CONST kBlockSlots = 256, // slots per block
     kSliceLeaves = 512;         // most leaves that one group tests
 // A leaf in the answer: leaf x kBands + band of its gap, plus kUndecided where float32 is too coarse to tell
 // the band, or whether the gap is within reach.
-FATHOM_CONST kBands = 16, kUndecided = 0x80000000;
+FATHOM_CONST kBands = 16,    // of a leaf
+    kUndecided = 0x80000000; // float32 does not decide this pair
 // FoundSphere::slot is 4 x slot + layer.
 FATHOM_CONST kLayerSeen = 0, // spheres of this frame
     kLayerHeld = 1,          // held spheres
