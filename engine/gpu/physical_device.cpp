@@ -176,11 +176,13 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
         }
     }
     if (best == VK_NULL_HANDLE) {
-        const BadInput refused("device", "name or index", "'" + selector + "'", describeAll(devices));
+        const auto refused = [&] {
+            return BadInput("device", "name or index", "'" + selector + "'", describeAll(devices));
+        };
         if (selector.empty() || devices.empty()) {
-            throw DeviceMissing(refused.what());
+            throw DeviceMissing(refused().what());
         }
-        throw refused;
+        throw refused();
     }
     return best;
 }

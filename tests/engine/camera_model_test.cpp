@@ -131,7 +131,8 @@ TEST_CASE("Depth in metres is protected up to camera.far, and in units of 0.1 mm
         lockstep.regions(regions);
         return regions;
     };
-    for (const auto& [farZ, metres] : {std::pair("10", 9.99f), {"100", 99.0f}, {"10000", 9990.0f}}) {
+    for (const auto& [limit, metres] : {std::pair("10", 9.99f), {"100", 99.0f}, {"10000", 9990.0f}}) {
+        const char* const farZ = limit; // CAPTURE needs a variable
         const Regions regions = regionsOf(farZ, metres, true);
         CAPTURE(farZ);
         REQUIRE_FALSE(regions.spheres.empty());
@@ -139,7 +140,8 @@ TEST_CASE("Depth in metres is protected up to camera.far, and in units of 0.1 mm
         CHECK(z == doctest::Approx(metres).epsilon(1e-4));
     }
     CHECK(regionsOf("100", 101.0f, true).spheres.empty());
-    for (const auto& [farZ, metres] : {std::pair("3", 0.61237f), {"6.5535", 6.5535f}}) {
+    for (const auto& [limit, metres] : {std::pair("3", 0.61237f), {"6.5535", 6.5535f}}) {
+        const char* const farZ = limit;
         const auto floats = regionsOf(farZ, metres, true).spheres,
                    raw = regionsOf(farZ, metres, false).spheres;
         CAPTURE(farZ);
