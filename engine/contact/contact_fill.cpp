@@ -72,15 +72,25 @@ void orderBySphere(PairScratch& scratch, ContactSet& set) {
 
 } // namespace
 
-void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
-                    std::span<const uint32_t> indices, ContactSet& out) {
-    out.behind.clear(); // not the pairs: vectors that grow again would write zeros before placePairs() does
+void describeQuery(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
+                   ContactSet& out) {
+    out.behind.clear();
     out.frame = fixtures.frame;
     out.generation = fixtures.generation;
     out.captureTime = fixtures.captureTime;
     out.reach = reach;
     out.origin = fixtures.origin;
     out.camera = fixtures.baseTcamera.position - fixtures.origin;
+    const dvec3 centre = baseTtool.position - fixtures.origin;
+    out.leafAtQuery.resize(tool.leafCount());
+    for (size_t i = 0; i < tool.leafCount(); ++i) {
+        out.leafAtQuery.set(i, centre + baseTtool.rotation * tool.leaves()[i].centre);
+    }
+}
+
+void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
+                    std::span<const uint32_t> indices, ContactSet& out) {
+    describeQuery(tool, baseTtool, reach, fixtures, out);
     const RegionSpheres& from = fixtures.spheres;
     const size_t count = indices.size();
     out.x.resize(count);
@@ -97,11 +107,6 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const
         out.radius[i] = from.radius[s];
         out.source[i] = from.source[s];
         out.fixture[i] = from.fixture[s];
-    }
-    const dvec3 centre = baseTtool.position - fixtures.origin;
-    out.leafAtQuery.resize(tool.leafCount());
-    for (size_t i = 0; i < tool.leafCount(); ++i) {
-        out.leafAtQuery.set(i, centre + baseTtool.rotation * tool.leaves()[i].centre);
     }
 }
 

@@ -21,9 +21,13 @@ struct PairScratch {
     std::vector<uint32_t> count;
 };
 
-// Fills everything except the pairs, which stay as they were, the behind flags and ContactSet::query:
-// identity of the fixture set, pose, reach, leaf centres, and the spheres in the order of `indices` (sorted
-// by source).
+// Fills what does not depend on the spheres found: identity of the fixture set, pose, reach, leaf centres.
+// Clears the behind flags. Spheres and pairs stay as they were, because vectors that grow again would write
+// zeros first.
+void describeQuery(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
+                   ContactSet& out);
+
+// The same, and the spheres in the order of `indices` (sorted by source).
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out);
 

@@ -105,8 +105,11 @@ void placePairs(const ListedPairs& pairs, DecideScratch& scratch, ContactSet& se
         ++end[pairs.bucket[k]];
     }
     next.resize(end.size());
-    std::exclusive_scan(end.begin(), end.end(), next.begin(), 0u);
-    std::inclusive_scan(end.begin(), end.end(), end.begin());
+    uint32_t before = 0;
+    for (size_t b = 0; b < end.size(); ++b) {
+        next[b] = before;
+        end[b] = before += end[b];
+    }
     set.pairBegin.resize(leaves + 1);
     set.pairBegin[0] = 0;
     for (size_t leaf = 0; leaf < leaves; ++leaf) {

@@ -66,7 +66,7 @@ struct DecideScratch {
     SourceSort sort;
 };
 
-// Adds spheres and pairs to `set`, which has no spheres yet: every pair whose gap at the query pose, in
+// Replaces the spheres and pairs of `set`: every pair whose gap at the query pose, in
 // float64, is at most set.reach (plus 1 nm of margin), and every sphere with such a pair. False, with an
 // incomplete set, when there are more than `mostPairs`.
 bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, DecideScratch& scratch,

@@ -60,7 +60,7 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
     switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
     case Plan::Query::None:
         out.clear();
-        fillContactSet(tool, baseTtool, kNothingToTouch, set.host, {}, out);
+        describeQuery(tool, baseTtool, kNothingToTouch, set.host, out);
         out.pairBegin.assign(tool.leafCount() + 1, 0);
         out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
         return;
@@ -82,9 +82,12 @@ void ContactCycle::askDevice(const Tool& tool, const cloud::FixtureSet& set, con
         gpu_->setTool(tool); // its leaves move with the joints
     }
     const auto onDevice = [&](double within, const QueryCapacity& most, ContactSet& filled) {
-        fillContactSet(tool, baseTtool, within, set.host, {}, filled);
-        return gpu_->list(set, baseTtool, within, near_) &&
-               decidePairs(tool, near_, most.pairs, scratch_, filled);
+        if (!gpu_->list(set, baseTtool, within, near_)) {
+            fillContactSet(tool, baseTtool, within, set.host, {}, filled); // no sphere
+            return false;
+        }
+        describeQuery(tool, baseTtool, within, set.host, filled);
+        return decidePairs(tool, near_, most.pairs, scratch_, filled);
     };
     gpuLoop_.run(reach, onDevice, out);
 }
