@@ -17,14 +17,22 @@ constexpr double kNearest = 1e-6; // [m] from the camera; nearer points have no 
 // Deepest overlap of the leaf with any listed sphere [m]; 0 when it is clear of all.
 double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
     double deepest = 0.0;
-    if (set.pairBegin.size() <= leaf + 1 || set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
-        return deepest;
-    }
     const PairArrays run = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, 0.0));
     for (size_t k = 0; k < run.count; ++k) {
         deepest = std::max(deepest, -gapOf(run, k, set.leafAtQuery[leaf], radius));
     }
     return deepest;
+}
+
+// Whether a listed sphere is less than `before` [m] behind the leaf's centre, seen from the camera.
+bool hasSphere(const ContactSet& set, uint32_t leaf, const dvec3& towardsCamera, double before) {
+    const PairArrays run = pairsOf(set, set.pairBegin[leaf], set.pairBegin[leaf + 1]);
+    for (size_t k = 0; k < run.count; ++k) {
+        if (glm::dot(awayFrom(run, k, set.leafAtQuery[leaf]), towardsCamera) < before) {
+            return true;
+        }
+    }
+    return false;
 }
 
 } // namespace
@@ -51,36 +59,46 @@ BehindTracker::DepthSample BehindTracker::sampleAt(const HostFixtures& fixtures,
     sample.known = true;
     sample.forbidden = bits != nullptr ? bits->at(column, line) : fixtures.forbiddenAt(column, line);
     sample.before = z - p.z;
-    sample.sigma = fixtures.camera.sigmaAt(p * (z / p.z));
-    sample.range = glm::length(p) * z / p.z;
+    sample.z = z;
+    sample.point = p;
     return sample;
 }
 
-bool BehindTracker::becameBehind(const DepthSample& sample, double resting) {
-    const double margin = kSigmas * sample.sigma;
-    const double inFront = resting > 2.0 * margin ? std::max(margin, kDeep * resting) : -margin;
-    return sample.known && sample.forbidden && sample.before < inFront;
+double BehindTracker::DepthSample::margin(const CameraInfo& camera) const {
+    return kSigmas * camera.sigmaAt(point * (z / point.z));
 }
 
-void BehindTracker::follow(Leaf& leaf, const DepthSample& sample, const LeafDistance& distance, bool newSet) {
-    if (newSet) {
-        leaf.inFrontBefore = leaf.inFront;
+BehindTracker::LeafPlace BehindTracker::placeOf(const ContactSet& set, uint32_t leaf, double radius,
+                                                double regionRadius) {
+    LeafPlace place;
+    place.toCamera = set.camera - set.leafAtQuery[leaf];
+    place.range = glm::length(place.toCamera);
+    place.resting = regionRadius + radius;
+    place.nearer = place.resting + set.reach;
+    place.overlap = overlapOf(set, leaf, radius);
+    return place;
+}
+
+bool BehindTracker::becameBehind(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+                                 uint32_t leaf, const ContactSet& set) {
+    const double margin = sample.margin(camera);
+    const double before = place.resting > 2.0 * margin ? std::max(margin, kDeep * place.resting) : -margin;
+    return sample.before < before && place.range - sample.range() <= place.nearer &&
+           hasSphere(set, leaf, place.toCamera / place.range, before);
+}
+
+// Of a leaf that is behind.
+void BehindTracker::follow(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+                           Leaf& leaf) {
+    const bool surface = sample.known && sample.forbidden;
+    if (surface && leaf.range - sample.range() <= place.nearer) {
+        leaf.range = sample.range(); // the surface may have moved
+    } else if (sample.known && !surface && sample.before > sample.margin(camera)) {
+        leaf.behind = false; // the view to it is free
     }
-    const double margin = kSigmas * sample.sigma;
-    if (leaf.behind) {
-        if (sample.known && sample.forbidden) {
-            leaf.range = sample.range; // the surface may have moved
-        } else if (sample.known && sample.before > margin) {
-            leaf.behind = false; // the view to it is free
-        }
-        if (distance.range <= leaf.range - distance.resting && distance.overlap <= 0.0) {
-            leaf.behind = false;
-        }
-    } else if (newSet && leaf.inFrontBefore && becameBehind(sample, distance.resting)) {
-        leaf.behind = true;
-        leaf.range = sample.range;
+    if (place.range <= leaf.range - place.resting && place.overlap <= 0.0) {
+        leaf.behind = false;
     }
-    leaf.inFront = !leaf.behind && sample.known && sample.forbidden && sample.before > -margin;
 }
 
 void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, double regionRadius,
@@ -90,18 +108,27 @@ void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, doubl
     any_ = true;
     generation_ = fixtures.generation;
     set.behind.clear();
+    const CameraInfo& camera = fixtures.camera;
     const Pose cameraTbase = inverse(fixtures.baseTcamera);
     for (uint32_t i = 0; i < leaves_.size(); ++i) {
-        const dvec3 centre = set.origin + set.leafAtQuery[i];
-        const dvec3 toCamera = fixtures.baseTcamera.position - centre;
-        const double ownRange = glm::length(toCamera);
-        LeafDistance distance{regionRadius + tool.leaves()[i].radius, ownRange, 0.0};
-        distance.overlap = leaves_[i].behind ? overlapOf(set, i, tool.leaves()[i].radius) : 0.0;
-        follow(leaves_[i], sampleAt(fixtures, bits, cameraTbase, centre), distance, newSet);
-        if (leaves_[i].behind && ownRange > kNearest) {
-            const double left = ownRange - leaves_[i].range + distance.resting;
-            set.behind.push_back({i, toCamera / ownRange, std::max(left, distance.overlap)});
+        Leaf& leaf = leaves_[i];
+        const DepthSample sample = sampleAt(fixtures, bits, cameraTbase, set.origin + set.leafAtQuery[i]);
+        const bool surface = sample.known && sample.forbidden;
+        if (leaf.behind || (newSet && leaf.inFront && surface)) {
+            const LeafPlace place = placeOf(set, i, tool.leaves()[i].radius, regionRadius);
+            if (leaf.behind) {
+                follow(camera, sample, place, leaf);
+            } else if (becameBehind(camera, sample, place, i, set)) {
+                leaf.behind = true;
+                leaf.range = sample.range();
+            }
+            if (leaf.behind && place.range > kNearest) {
+                const double left = place.range - leaf.range + place.resting;
+                set.behind.push_back({i, place.toCamera / place.range, std::max(left, place.overlap)});
+            }
         }
+        leaf.inFront =
+            !leaf.behind && surface && (sample.before > 0.0 || sample.before > -sample.margin(camera));
     }
 }
 

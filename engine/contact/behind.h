@@ -29,7 +29,10 @@ struct PatchBits {
 // A leaf is flagged when a NEW fixture set shows a forbidden surface in front of its centre, by more than
 // 3 sigma of depth, and the centre was in front of a forbidden surface at the last query on the previous
 // set. A leaf that gets behind a surface while the set is unchanged, or that was not in front of one
-// before, moved through free space or is hidden. It is occluded, not behind.
+// before, moved through free space or is hidden. It is occluded, not behind. So is a leaf behind something
+// that appears more than R + r and the query's reach in front of it, because a surface that the leaf was in
+// front of moves less between two frames. Nor does a pixel flag a leaf if the set has no sphere there, as
+// where the filter rejected its point.
 //
 // The flag stays until the view to the leaf is free, or until the leaf is clear in front: R + r before the
 // surface and not overlapping any sphere (noise puts some spheres before their pixel's depth). Where R + r is
@@ -39,7 +42,7 @@ struct PatchBits {
 class BehindTracker {
 public:
     // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The pairs of the set
-    // must be listed already (or be empty). Fills set.behind. Reads no spheres of the fixtures, and with
+    // must be listed already. Fills set.behind. Reads no spheres of the fixtures, and with
     // `bits` no forbiddenBits, so that their host copy may still be incomplete.
     void update(const Tool& tool, const HostFixtures& fixtures, double regionRadius, ContactSet& set,
                 const PatchBits* bits = nullptr);
@@ -51,26 +54,34 @@ private:
         bool forbidden = false; // the pixel has a forbidden class
         // [m] distance of the point before the surface along the optical axis; < 0 = deeper
         double before = 0.0;
-        double sigma = 0.0; // [m] of the depth there
-        double range = 0.0; // [m] from the camera to the surface on the point's own ray
+        double z = 0.0;   // [m] of the pixel
+        dvec3 point{0.0}; // [m] camera frame
+        // [m] three standard deviations of the depth there
+        double margin(const CameraInfo& camera) const;
+        // [m] from the camera to the surface on the point's own ray
+        double range() const { return glm::length(point) * z / point.z; }
     };
     static DepthSample sampleAt(const HostFixtures& fixtures, const PatchBits* bits, const Pose& cameraTbase,
                                 const dvec3& point);
 
     struct Leaf {
-        bool inFront = false;       // in front of a forbidden surface at the last query
-        bool inFrontBefore = false; // at the last query on the previous set
+        bool inFront = false; // in front of a forbidden surface at the last query
         bool behind = false;
         double range = 0.0; // [m] to the surface that it is behind
     };
     // A leaf at the query.
-    struct LeafDistance {
-        double resting = 0.0; // [m] distance before the surface at rest: R + r
+    struct LeafPlace {
+        dvec3 toCamera{0.0};
         double range = 0.0;   // [m] from the camera to its centre
+        double resting = 0.0; // [m] distance before the surface at rest: R + r
+        double nearer = 0.0;  // [m] the surface comes nearer to the camera by at most this, in one frame
         double overlap = 0.0; // [m] deepest overlap with a listed sphere; 0 = clear
     };
-    static bool becameBehind(const DepthSample& sample, double resting);
-    static void follow(Leaf& leaf, const DepthSample& sample, const LeafDistance& distance, bool newSet);
+    static LeafPlace placeOf(const ContactSet& set, uint32_t leaf, double radius, double regionRadius);
+    static bool becameBehind(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+                             uint32_t leaf, const ContactSet& set);
+    static void follow(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+                       Leaf& leaf);
 
     std::vector<Leaf> leaves_;
     uint64_t generation_ = 0;
