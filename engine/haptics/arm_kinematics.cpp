@@ -48,7 +48,7 @@ void ArmKinematics::begin(const ProxyInput& input, ProxyRows&) noexcept {
     target_ = input.target;
     metricRadius_ = std::isfinite(input.metricRadius) ? std::clamp(input.metricRadius, 0.0, 10.0) : 0.0;
     start_ = now_.posture.q;
-    escapeLeft_ = ProxyOptions::kEscapePerTick;
+    escapeLeft_ = ProxyOptions::kEscapeSpeed * options_.period;
 }
 
 void ArmKinematics::report(ArmStep& out) const noexcept {

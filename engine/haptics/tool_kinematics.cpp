@@ -27,6 +27,7 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
     : places_(tool)
     , boundingRadius_(tool.boundingRadius())
     , stepCap_(options.stepCap)
+    , escape_(ProxyOptions::kEscapeSpeed * options.period)
     , catchUp_(ProxyOptions::kCatchUp * options.period)
     , mostTravel_(options.solves * options.stepCap)
     , friction_(options.friction)
@@ -47,7 +48,7 @@ void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     target_ = input.target;
     hasTarget_ = true;
     cutTravel_ = 0.0;
-    budget_ = {ProxyOptions::kEscapePerTick, stepCap_, carried + moved + catchUp_};
+    budget_ = {escape_, stepCap_, carried + moved + catchUp_};
     setMetric(input.metricRadius, rows);
 }
 

@@ -106,7 +106,7 @@ private:
 
     LeafPlaces places_;
     double boundingRadius_;    // [m]
-    double stepCap_, catchUp_; // [m] per solve, per tick
+    double stepCap_, escape_, catchUp_; // [m] per solve, per tick, per tick
     double mostTravel_;        // [m] per tick, of any leaf
     double friction_;          // mu
     Pose pose_, nextPose_, target_;
