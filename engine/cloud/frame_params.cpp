@@ -45,22 +45,33 @@ void setGates(shared::ClassParams& c, const FixtureClass& f) {
     c.boxMax.w = any ? -1.0f : 0.0f;
 }
 
+// [m] Float32 rounding near a box face at this coordinate, relative to the origin. Points meet a face beyond
+// the range only if the camera has left the origin. Then the camera's position, the point and the face are
+// each rounded in proportion to their distance.
+double faceSlack(double face, double farZ) {
+    const double range = std::max(1.0, farZ), away = std::abs(face);
+    return 3e-7 * range + (away > range ? 0x1p-22 * away : 0.0);
+}
+
 shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene& scene,
                                 const dvec3& origin) {
     shared::ClassParams c{};
     setGates(c, f);
     if (f.box) {
-        // Widened by the float32 rounding, so that a point exactly on a face is inside.
-        const double slack = 3e-7 * std::max(1.0, scene.farZ);
-        c.boxMin = vec4(glm::vec3(f.box->min - origin - slack), 1.0f);
-        c.boxMax = vec4(glm::vec3(f.box->max - origin + slack), c.boxMax.w);
+        // Widened, so that a point exactly on a face is inside.
+        c.boxMin.w = 1.0f;
+        for (int a = 0; a < 3; ++a) {
+            const double lo = f.box->min[a] - origin[a], hi = f.box->max[a] - origin[a];
+            c.boxMin[a] = static_cast<float>(lo - faceSlack(lo, scene.farZ));
+            c.boxMax[a] = static_cast<float>(hi + faceSlack(hi, scene.farZ));
+        }
     }
     c.role = {f.radius + 3.0 * scene.registrationSigma, f.role == Role::Forbidden ? 1.0 : 0.0,
               f.role == Role::Guidance ? 1.0 : 0.0, row};
     return c;
 }
 
-// Widened by the float32 rounding, like a box.
+// Widened by the float32 rounding. A range is measured from the camera, so the origin does not matter.
 vec4 rangeOf(const FixtureClass& f, double farZ) {
     const double slack = 3e-7 * std::max(1.0, farZ);
     return f.range ? vec4(f.range->lo - slack, f.range->hi + slack, 1.0, 0.0) : vec4(0.0f);
@@ -81,7 +92,8 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
 }
 
 // Limits of estimates (estimate.glsl). With the filter's, they move no point out of the smallest region
-// sphere.
+// sphere, up to 33 degrees off the axis. These limit depth, so a point moves farther along an oblique ray:
+// there a region of 1 or 2 mm may miss a measured point.
 void setMemoryGates(shared::FrameParams& p, double bound) {
     p.memoryGates = {1.0, std::min(0.0004, bound), 0.6, std::min(0.0006, bound)};
     p.memoryLimits = {0.2, std::min(0.0002, 0.25 * bound), 1e-8, 0.0};
