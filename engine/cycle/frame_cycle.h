@@ -96,7 +96,8 @@ public:
     double captureTime() const { return captureTime_.load(std::memory_order_acquire); }
 
     const std::vector<std::string>& passNames() const; // empty without passes
-    static constexpr double kMaxAway = 1000.0;         // [m] where float32 positions are rounded by 0.03 mm
+    // [m] At this distance rounding to float32 moves a point by up to 0.1 mm (depth up to 100 m).
+    static constexpr double kMaxAway = 1000.0;
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
     uint32_t dispatches() const { return dispatches_; } // in the last frame
