@@ -42,9 +42,9 @@ struct EngineOptions {
 
 /// Owns a compute device, a frame thread, a contact thread, a clearance thread, and up to 11 publishing
 /// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Its threads block
-/// all signals but those of faults. Installs no signal handler, locks no memory, changes no environment and
-/// does not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes. After
-/// fork() only the parent may use it: in the child its destructor does nothing.
+/// all signals but those of faults and SIGPROF. Installs no signal handler, locks no memory, changes no
+/// environment and does not fork; the constructor starts the program fathom-reader for scenes with URDFs or
+/// meshes. After fork() only the parent may use it: in the child its destructor does nothing.
 class FATHOM_API Engine {
 public:
     /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to
@@ -76,10 +76,11 @@ public:
     /// The smallest gap of the scene's tool at each pose, to the regions of the newest frame. Placed shapes
     /// do not count. With an arm only what its last joint carries counts: `tool:` and the last links (unlike
     /// Step::clearance). Reuses the memory of `out`. Any thread but the haptic one; calls of several threads
-    /// run one after the other. Blocks until all are answered, in one submission to the GPU where it also
-    /// answers contact queries, else on the CPU. No force waits for it. If the compute device is lost
-    /// meanwhile, the CPU answers: slower, and still complete. @throws Error, for example when memory is
-    /// exhausted
+    /// run one after the other. Blocks until all are answered. If the GPU answers contact queries, it
+    /// answers batches too, at most 16384 poses per submission; an answer that outgrows its buffer takes
+    /// more. The CPU answers otherwise, and for poses over 20 m from the origin of the regions. No force
+    /// waits for it. If the compute device is lost meanwhile, the CPU answers: slower, and still complete.
+    /// @throws Error, for example when memory is exhausted
     void clearances(std::span<const Pose> baseTtool, Clearances& out);
 
     /// True while the engine reopens a lost compute device. Any thread.

@@ -12,9 +12,9 @@
 
 namespace fathom::v0 {
 
-/// A scene, read and checked. Immutable; any thread. Its camera source, hand and arm driver are ignored,
-/// because you submit the frames, the hand and the measured arm. Files that it names are read by Engine and
-/// Lockstep.
+/// A scene, read and checked. Immutable; any thread. Ignored are its camera source, hand path, simulated hand
+/// and arm driver, because you submit the frames, the hand and the measured arm. `hand.map` applies. Engine
+/// and Lockstep read the files that it names.
 class FATHOM_API Scene {
 public:
     /// Reads a scene file. @throws BadInput naming file, field, value and the allowed values
