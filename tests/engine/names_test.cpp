@@ -82,7 +82,7 @@ TEST_CASE("A surface that new frames show in front of the tool pushes without be
     lockstep.process(wall.at(1'000'000));
     lockstep.queryContacts();
     lockstep.step(handAt(0.5), 2'000'000);
-    wall.depth.assign(wall.depth.size(), 350);
+    wall.depth.assign(wall.depth.size(), 470);
     lockstep.process(wall.at(34'000'000));
     std::vector<Contact> contacts;
     for (int i = 0; i < 20; ++i) {

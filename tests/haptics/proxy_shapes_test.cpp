@@ -201,7 +201,7 @@ TEST_CASE("A tool off the line or tilted off the axis is pulled back by at most 
 
 TEST_CASE("A surface that jumps past the tool moves it out on the camera's side, not through the surface") {
     for (const double noise : {0.0, 0.0005}) {
-        for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.12}) {
+        for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.11}) {
             ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(dvec3(0.002, 0.001, 0.445)));
             REQUIRE(rig.depth() < 0.0);
             rig.step(rig.proxy().pose());
@@ -221,5 +221,20 @@ TEST_CASE("A surface that jumps past the tool moves it out on the camera's side,
             CHECK(ticks >= static_cast<int>((jump - 0.012) / 0.002));
             CHECK(front - rig.proxy().pose().position.z > 0.045);
         }
+    }
+}
+
+TEST_CASE("A surface that appears more than R + r and the reach in front of the tool leaves it where it is") {
+    for (const double noise : {0.0, 0.0005}) {
+        const dvec3 start(0.002, 0.001, 0.445);
+        ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(start));
+        rig.step(rig.proxy().pose());
+        rig.replace(wallImage(0.38, 2, 0.04, noise));
+        for (int tick = 0; tick < 50; ++tick) {
+            rig.step(at(start));
+            CHECK(rig.inForce().behind.empty());
+        }
+        CHECK(rig.depth() < 0.0);
+        CHECK(glm::distance(rig.proxy().pose().position, start) < 1e-9);
     }
 }
