@@ -10,6 +10,7 @@
 #include "engine/types/stand_in.h"
 
 #include <algorithm>
+#include <fstream>
 #include <vector>
 
 namespace fathom {
@@ -21,9 +22,9 @@ constexpr size_t kMaxDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is
 // Why no reader knows the file.
 std::string unknown(const std::filesystem::path& file) {
     const std::string other = standInOf(file);
-    return !isRegularFile(file) ? "cannot be read"
-           : other.empty()      ? "not PNG, PGM (P5), TIFF, NPY or EXR"
-                                : other;
+    return !std::ifstream(isRegularFile(file) ? file : "") ? whyUnreadable(file)
+           : other.empty()                                 ? "not PNG, PGM (P5), TIFF, NPY or EXR"
+                                                           : other;
 }
 
 struct DepthFormat {

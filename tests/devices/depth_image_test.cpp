@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 #include <fstream>
+#include <sys/stat.h>
 
 using namespace fathom;
 
@@ -162,6 +163,18 @@ TEST_CASE("Depth in a format that is not read is named as such, and a PGM may en
     }
     std::ofstream(file) << pgm << "\n\n";
     CHECK(readDepthImage(file, {2, 1}, {}, depth, beyond) == "PGM: 6 bytes of pixels, not 4");
+}
+
+TEST_CASE("A depth image that is not there, a folder and a pipe are named as such") {
+    const TemporaryFolder folder;
+    REQUIRE(::mkfifo((folder.path() / "pipe").c_str(), 0600) == 0);
+    std::vector<uint16_t> depth(2);
+    uint64_t beyond = 0;
+    for (const auto& [name, why] : {std::pair("none", "no such file"), std::pair("", "a folder"),
+                                    std::pair("pipe", "a pipe or device")}) {
+        CHECK(depthImageHeader(folder.path() / name).fault == why);
+        CHECK(readDepthImage(folder.path() / name, {2, 1}, {}, depth, beyond) == why);
+    }
 }
 
 TEST_CASE("A depth image that is cut off anywhere is a fault") {

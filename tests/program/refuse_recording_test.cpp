@@ -53,7 +53,7 @@ TEST_CASE("A recording without a usable frame is rejected in one line that names
     checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png",
                          "at least one usable pair"});
     fs::remove_all(stage / "rec/depth");
-    checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be read"});
+    checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "no such file"});
     stage.write("rec/associations.txt", "this is no index\n");
     checkRefused(stage, {"frames", "none of 1", "line 1"});
 }
