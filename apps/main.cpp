@@ -32,6 +32,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <iostream>
 #include <memory>
 #include <poll.h>
@@ -41,6 +42,16 @@
 #include <unistd.h>
 
 namespace {
+
+// A file that is opened while a standard stream is closed gets its number, and log lines are written to it.
+// So /dev/null takes these numbers.
+void openStandardStreams() {
+    int file = 0;
+    do {
+        file = ::open("/dev/null", O_RDWR);
+    } while (file >= 0 && file <= STDERR_FILENO);
+    ::close(file);
+}
 
 // Also `fathom help [SUBCOMMAND]`, as many programs have it.
 void addHelpCommand(CLI::App& app) {
@@ -159,6 +170,7 @@ int judged(int result) {
 } // namespace
 
 int main(int argc, char** argv) {
+    openStandardStreams();
     int result = 1;
     std::string failure;
     try {

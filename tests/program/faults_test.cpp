@@ -80,6 +80,25 @@ TEST_CASE("A truncated, missing or wrong frame in a good recording is skipped al
         2, {"8-bit", "16-bit grey"});
 }
 
+TEST_CASE("Where standard streams are closed, a warning is not written into results, which stay the same") {
+    const Stage stage;
+    stage.recording(std::vector<Image>(4, bumpImage()));
+    std::filesystem::remove(stage / "rec/depth/000001.png"); // the cause of the warning
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    for (const std::string name : {"open", "closed"}) {
+        RunSetting streams;
+        streams.closed = name == "closed";
+        CHECK(runFathom(stage.command({}, name), streams).exitCode == 0);
+        CHECK(runFathom({"convert", (stage / "rec").string(), "--format", "mcap", "--out",
+                         (stage / name / "mcap").string()},
+                        streams)
+                  .exitCode == 0);
+    }
+    CHECK(stage.read("closed/haptics.csv") == stage.read("open/haptics.csv"));
+    CHECK(stage.read("closed/mcap/recording.mcap") == stage.read("open/mcap/recording.mcap"));
+    CHECK(readFrames(stage / "closed/frames.csv").size() == 3);
+}
+
 TEST_CASE("A stamp that goes back, or an invalid line, skips its frame alone and is named") {
     withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2,
              {"0.01", "goes back"});

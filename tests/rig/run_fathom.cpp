@@ -85,6 +85,9 @@ public:
         const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
                            (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0) &&
                            (!setting.unprivileged || dropPrivileges());
+        for (int stream = 0; setting.closed && stream <= STDERR_FILENO; ++stream) {
+            ::close(stream);
+        }
         if (ready) {
             ::execv(pointers_[0], pointers_.data());
         }
