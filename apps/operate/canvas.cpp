@@ -146,13 +146,12 @@ std::unique_ptr<Image> Canvas::frameImage(const Console& console) {
 
 bool Canvas::shoot(Console& console) {
     if (!onDevice_) {
-        console.notify("no screenshot: the GPU is lost");
+        shotFault_ = "the GPU is lost";
+        console.notify("no screenshot: " + shotFault_);
         return true;
     }
-    // Offscreen, programs expect the same name every time.
-    const auto stem =
-        window_.offscreen() ? shots_ / "screenshot-1" : unusedName(shots_, "screenshot", {".png"});
-    const std::filesystem::path file = stem.string() + ".png";
+    const std::filesystem::path file =
+        window_.offscreen() ? shots_ / kOffscreenShot : unusedName(shots_, "screenshot", {".png"}) += ".png";
     try {
         std::error_code ignored; // writing says why a file cannot be made
         std::filesystem::create_directories(shots_, ignored);
@@ -165,12 +164,14 @@ bool Canvas::shoot(Console& console) {
         }
         waits_ = false;
         image->writePng(file);
+        shotFault_.clear();
         ++console.status.shots;
         console.notify("screenshot " + file.string());
     } catch (const DeviceFailed&) {
         throw;
     } catch (const Error& e) {
-        console.notify(e.what());
+        shotFault_ = e.what();
+        console.notify(shotFault_);
     }
     return true;
 }

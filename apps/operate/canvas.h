@@ -11,6 +11,8 @@
 
 namespace fathom::operate {
 
+inline constexpr const char* kOffscreenShot = "screenshot-1.png"; // every time, as programs expect
+
 // Window thread. Window and instance outlive it; a device outlives the objects open on it.
 class Canvas {
 public:
@@ -34,6 +36,8 @@ public:
     // not drawn, or there is no device. Throws DeviceFailed: call drop().
     std::unique_ptr<Image> frameImage(const Console& console);
 
+    // Why the last screenshot was not written; empty = it was.
+    const std::string& shotFault() const { return shotFault_; }
     const Fonts& fonts() const { return fonts_; }
     struct Counts {                      // Totals over all devices.
         uint64_t drawn = 0, yielded = 0; // window frames drawn, and skipped for passes
@@ -56,6 +60,7 @@ private:
     std::unique_ptr<OnDevice> onDevice_; // null: no device
     Counts before_;                      // counts from devices that were dropped
     Fonts fonts_;
+    std::string shotFault_ = "the window was not drawn";
 };
 
 } // namespace fathom::operate

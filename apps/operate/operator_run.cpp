@@ -102,6 +102,7 @@ void OperatorRun::run() {
     if (live_.failure()) {
         std::rethrow_exception(live_.failure());
     }
+    display_.checkLastShot();
 }
 
 void OperatorRun::writeState(bool now) {

@@ -114,6 +114,7 @@ void PlaybackRun::run() {
         frame(0.0);
     }
     display_.writeState(editor_, haptics_, nullptr, {}, true);
+    display_.checkLastShot();
 }
 
 std::string PlaybackRun::next() const {

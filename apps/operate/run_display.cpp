@@ -4,6 +4,8 @@
 #include "apps/operate/caption.h"
 #include "apps/operate/closing.h"
 #include "apps/operate/open_card.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/try_output.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
@@ -42,6 +44,10 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
     , controlThread_(session.camera->controls())
     , pace_(session.cycles.device().facts().kind == DeviceKind::Cpu)
     , log_(stateFile(options, session.scene), options.appendsState) {
+    if (endsWithShot()) {
+        makeOutputFolder(options.shots);
+        tryOutput("operate", "--folder", std::filesystem::path(options.shots) / kOffscreenShot);
+    }
     canvas.open(session.cycles.device());
     screen.setCoarse(session.cycles.device().facts().kind == DeviceKind::Cpu);
 }
@@ -69,12 +75,18 @@ double RunDisplay::beginFrame() {
 }
 
 bool RunDisplay::beginLastShot() {
-    if (!window_.offscreen() || options_.shots.empty()) {
+    if (!endsWithShot()) {
         return false;
     }
     console.requests.screenshot = true;
     window_.beginFrame(0.0);
     return true;
+}
+
+void RunDisplay::checkLastShot() const {
+    if (endsWithShot() && !canvas.shotFault().empty()) {
+        throw Error("operate: no screenshot: " + canvas.shotFault());
+    }
 }
 
 void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {

@@ -15,7 +15,8 @@ namespace fathom::operate {
 
 // Window thread. Options, window, session and sink outlive it. For live runs and for recordings.
 struct RunDisplay {
-    // Opens the canvas on the session's device. Throws Error, DeviceLost.
+    // Opens the canvas on the session's device. Throws Error, DeviceLost; BadInput if the folder of the last
+    // screenshot cannot be written.
     RunDisplay(const OperateOptions& options, Window& window, Session& session, SnapshotSink& sink);
 
     void begin();        // the time of the run counts from now
@@ -23,6 +24,7 @@ struct RunDisplay {
     // Call at the end. True where the run ends with a screenshot, since no key can request one: offscreen,
     // with a folder. The caller then draws one more frame, which has begun.
     bool beginLastShot();
+    void checkLastShot() const; // at the very end; throws Error if that screenshot is not written
     void followClosing(FixtureEditor& editor, bool forcesGone); // the window's close button (closing.h)
     // True when the window is closed or the time is up.
     bool wantsToEnd() const;
@@ -44,6 +46,8 @@ struct RunDisplay {
     Alarms alarms;
 
 private:
+    bool endsWithShot() const { return window_.offscreen() && !options_.shots.empty(); }
+
     const OperateOptions& options_;
     Window& window_;
     Session& session_;

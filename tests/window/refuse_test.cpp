@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/rig/file_size_limit.h"
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cstdlib>
 #include <doctest/doctest.h>
+#include <fstream>
 
 using namespace fathom;
 
@@ -38,6 +41,30 @@ TEST_CASE("An invalid offscreen size is rejected in one line with exit code 2") 
         REQUIRE(run.errorLines().size() == 1);
         CHECK(run.errorLines()[0].find(size) != std::string::npos);
     }
+}
+
+TEST_CASE(
+    "A folder for the screenshot that cannot be written is rejected, and a full disk gives exit code 1") {
+    const testing::ScratchFolder scratch;
+    const std::filesystem::path own = scratch.path() / "own", shots = scratch.path() / "shots";
+    std::ofstream(own) << "mine";
+    const auto shoot = [](const std::filesystem::path& folder) {
+        ProgramRun run = runFathom({"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe", "--offscreen",
+                                    "640x480", "--seconds", "0.1", "--folder", folder.string()});
+        CAPTURE(run.err);
+        CHECK(run.errorLines().size() == 1);
+        return run;
+    };
+    const ProgramRun refused = shoot(own);
+    CHECK(refused.exitCode == 2);
+    CHECK(refused.err.find(own.string() + ": output folder: ") != std::string::npos);
+    std::filesystem::create_directories(shots / "screenshot-1.png");
+    CHECK(shoot(shots).exitCode == 2);
+    std::filesystem::remove(shots / "screenshot-1.png");
+    const FileSizeLimit small(20'000);
+    const ProgramRun full = shoot(shots);
+    CHECK(full.exitCode == 1);
+    CHECK(full.err.find((shots / "screenshot-1.png").string() + ": cannot write") != std::string::npos);
 }
 
 TEST_CASE("Offscreen, the window draws without a display and without validation messages") {
