@@ -9,10 +9,12 @@
 #include "apps/output/try_output.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/log.h"
 #include "engine/types/printed.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <utility>
 
 namespace fathom {
 
@@ -37,6 +39,30 @@ void check(const Request& request) {
     tryOutput("latency", "--out", request.out);
 }
 
+// A signal ends the current part and skips the others. A part that it left without a tick is dropped.
+std::vector<LatencyPart> measureParts(LatencyRun& run, const std::vector<std::string>& loads,
+                                      const std::atomic<bool>& stop) {
+    std::vector<LatencyPart> parts;
+    size_t whole = 0;
+    for (const std::string& load : loads) {
+        if (stop.load()) {
+            break;
+        }
+        LatencyPart part = load == "idle" ? run.idle() : load == "frames" ? run.frames() : run.window();
+        whole += stop.load() ? 0 : 1;
+        if (part.tick.count() > 0 || !stop.load()) {
+            parts.push_back(std::move(part));
+            printLatency(std::cout, parts.back());
+            std::cout.flush();
+        }
+    }
+    if (stop.load()) {
+        log::warn("latency: ended by a signal, {} of {} parts are whole{}", whole, loads.size(),
+                  parts.empty() ? ": no report" : "");
+    }
+    return parts;
+}
+
 int measure(const Request& request, const GlobalOptions& global, const WindowLoad& windowLoad) {
     check(request);
     const StopSignals signals;
@@ -52,16 +78,12 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
     std::cout << "rate         " << run.rateHz() << " ticks per second, " << options.seconds
               << " s per part; " << run.placement() << "\nframes       30 per second on " << run.device()
               << "\n";
-    std::vector<LatencyPart> parts;
-    for (const std::string& load : loads) {
-        if (!signals.requested().load()) {
-            parts.push_back(load == "idle" ? run.idle() : load == "frames" ? run.frames() : run.window());
-            printLatency(std::cout, parts.back());
-        }
+    const std::vector<LatencyPart> parts = measureParts(run, loads, signals.requested());
+    if (!parts.empty()) {
+        printHistograms(std::cout, parts);
     }
-    printHistograms(std::cout, parts);
-    if (!request.out.empty()) {
-        writeLatency(request.out, parts, run.rateHz(), run.device());
+    if (!parts.empty() && !request.out.empty()) {
+        writeLatency(request.out, parts, run.rateHz(), run.device(), signals.requested().load());
     }
     if (request.soakMinutes > 0.0) {
         const bool holds = !parts.empty() && soakHolds(parts.back(), options.seconds);
@@ -70,7 +92,7 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
                   << " s, no frame or record lost, memory grown by at most " << kMaxGrowth << " MiB\n";
         return holds ? 0 : 1;
     }
-    return 0;
+    return parts.empty() ? 1 : 0;
 }
 
 } // namespace

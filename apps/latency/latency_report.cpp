@@ -80,8 +80,11 @@ void printHistograms(std::ostream& out, std::span<const LatencyPart> parts) {
 }
 
 void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart> parts, double rateHz,
-                  const std::string& device) {
-    nlohmann::json all = {{"rate_hz", rateHz}, {"device", device}, {"parts", nlohmann::json::array()}};
+                  const std::string& device, bool endedBySignal) {
+    nlohmann::json all = {{"rate_hz", rateHz},
+                          {"device", device},
+                          {"ended_by_signal", endedBySignal},
+                          {"parts", nlohmann::json::array()}};
     for (const LatencyPart& part : parts) {
         all["parts"].push_back({{"load", part.load},
                                 {"seconds", part.seconds},

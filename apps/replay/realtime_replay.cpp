@@ -4,6 +4,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
+#include "apps/replay/replay_report.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
@@ -111,6 +112,9 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     figures_.recordsLost = run_->recordsLost();
     figures_.renewals = session_.cycles.renewals();
     figures_.stopped = signals_.requested().load();
+    if (figures_.stopped) {
+        recorder_.warnings().add("signal", "ended by a signal at " + decimal(lastTick_) + " s of the run");
+    }
     return ending();
 }
 
@@ -160,6 +164,7 @@ void RealtimeReplay::query(const QueryNote& note) {
 void RealtimeReplay::step(const TickRow& row, const ObeyedSet& obeyed) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     recorder_.tick(row);
+    lastTick_ = row.record.t;
     observers_.step(row);
     if (const std::string change = watched_ ? watched_->change() : ""; !change.empty()) {
         log::warn("{}", change);

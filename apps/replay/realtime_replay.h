@@ -74,6 +74,7 @@ private:
     std::unique_ptr<RealtimeRun> run_;
     std::optional<WatchedHand> watched_; // only with a live hand
     std::vector<float> wokenLateMicros_;
+    double lastTick_ = 0.0; // [s]
     RealtimeFigures figures_;
 };
 

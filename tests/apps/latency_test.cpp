@@ -120,12 +120,13 @@ TEST_CASE("The report counts every tick in its table and in its file") {
     CHECK(tick == 777);
     const testing::ScratchFolder scratch;
     const auto file = scratch.path() / "latency.json";
-    writeLatency(file, parts, 1000.0, "none");
+    writeLatency(file, parts, 1000.0, "none", true);
     const auto read = nlohmann::json::parse(std::ifstream(file));
+    CHECK(read.at("ended_by_signal") == true);
     uint64_t counted = 0;
     for (const auto& bin : read.at("parts").at(0).at("woken_late").at("bins")) {
         counted += bin.at(1).get<uint64_t>();
     }
     CHECK(counted == 777);
-    CHECK_THROWS_AS(writeLatency("/nowhere/x.json", parts, 1000.0, "none"), Error);
+    CHECK_THROWS_AS(writeLatency("/nowhere/x.json", parts, 1000.0, "none", false), Error);
 }

@@ -125,6 +125,7 @@ TEST_CASE("SIGINT ends a realtime replay early and leaves every file complete") 
     const Json summary = run.finish();
     user.join();
     CHECK(run.replay->figures().stopped);
+    CHECK(summary["warnings"].dump().find("ended by a signal at ") != std::string::npos);
     const auto rows = rowsOf(out.path() / "haptics.csv", kColumns);
     CHECK(summary["haptic"]["ticks"] == rows.size());
     CHECK(summary["frames"]["count"] < 27);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom latency` on a small recording. Checks the counts only: wake-up times depend on the machine.
 #include "tests/rig/stage.h"
+#include "tests/support/eventually.h"
 
 #include <csignal>
 #include <cstdlib>
@@ -93,6 +94,28 @@ TEST_CASE("A soak test that is interrupted exits with code 1") {
     CAPTURE(said);
     CHECK(exitCode == 1);
     CHECK(said.find("soak         MISSED: asked are 3600.0 s") != std::string::npos);
+}
+
+TEST_CASE(
+    "A latency run that is ended by SIGINT reports its parts and a warning; without any, the old report "
+    "stays") {
+    const Stage stage;
+    const auto words = latencyCommand(stage, {"--seconds", "4", "--load", "idle", "--load", "frames"});
+    const auto said = [&](const char* text) { return stage.read("said").find(text) != std::string::npos; };
+    stage.write("latency.json", "old");
+    pid_t child = startFathom(words, stage / "said");
+    CHECK(testing::eventually([&] { return handlesInterrupt(child); })); // before its first part
+    CHECK(exitCodeOf(child, SIGINT) == 1);
+    CHECK(said("latency: ended by a signal, 0 of 2 parts are whole: no report"));
+    CHECK(stage.read("latency.json") == "old");
+
+    child = startFathom(words, stage / "said");
+    CHECK(testing::eventually([&] { return said("idle         woken late"); }));
+    CHECK(exitCodeOf(child, SIGINT) == 0);
+    CHECK(said("ended by a signal, 1 of 2 parts are whole"));
+    const auto report = nlohmann::json::parse(stage.read("latency.json"));
+    CHECK(report.at("ended_by_signal") == true);
+    CHECK(report.at("parts").at(0).at("seconds").get<double>() >= 3.9);
 }
 
 TEST_CASE("latency rejects an unknown load and an invalid length in one line") {

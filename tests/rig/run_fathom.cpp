@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <fstream>
 #include <grp.h>
 #include <poll.h>
 #include <stdexcept>
@@ -183,6 +184,20 @@ ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting
     }
     run.exitCode = exitCodeOf(child);
     return run;
+}
+
+bool handlesInterrupt(pid_t child) {
+    const std::filesystem::path folder = "/proc/" + std::to_string(child);
+    std::error_code gone;
+    if (!std::filesystem::equivalent(folder / "exe", FATHOM_PROGRAM, gone)) {
+        return false; // still the test's own process
+    }
+    std::ifstream status(folder / "status");
+    std::string word;
+    while (status >> word && word != "SigCgt:") {
+    }
+    status >> word;
+    return ((std::strtoull(word.c_str(), nullptr, 16) >> (SIGINT - 1)) & 1) != 0;
 }
 
 int exitCodeOf(pid_t child, int signal) {

@@ -36,6 +36,9 @@ ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting
 // to the test's own output. Throws std::runtime_error when no child can be created.
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
+// Whether the child handles SIGINT by itself. Until then the signal kills it.
+bool handlesInterrupt(pid_t child);
+
 // Sends the signal to a child, unless it is 0, and waits for its end. Its exit code; -1 = ended by a signal.
 int exitCodeOf(pid_t child, int signal = 0);
 
