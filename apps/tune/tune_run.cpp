@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/tune_run.h"
 
+#include "apps/binding/stop_signals.h"
 #include "apps/clock/clock_keeper.h"
 #include "apps/output/output_folder.h"
 #include "apps/tune/tune_report.h"
@@ -9,6 +10,7 @@
 #include "apps/verify/pressed_gripper.h"
 #include "engine/run/open_scene.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 #include "engine/types/version.h"
 
 #include <iostream>
@@ -91,10 +93,15 @@ public:
 
     int run() {
         const OutputLock lock(settings_.out);
-        fs::remove(old_); // an older result must not outlive a run that finds none
         say();
         Tuner tuner(device_, source_, tool_, options());
         const TuneResult result = tuner.run();
+        if (result.points.empty()) {
+            throw Error("tune: ended by a signal before the first point; the output folder is as it was");
+        }
+        if (signals_.requested().load()) {
+            log::warn("tune: ended by a signal after {} points", result.points.size());
+        }
         for (const Trial& trial : result.trials) {
             if (!trial.skipped.empty()) {
                 std::cout << "skipped   " << (trial.points.empty() ? "" : "some of ") << nameOf(trial.vary)
@@ -102,6 +109,7 @@ public:
             }
         }
         const fs::path out(settings_.out);
+        fs::remove(old_); // an older scene must not outlive a run that finds none
         writePoints(result, settings_.request, out / "points.csv");
         const std::optional<size_t> chosen = result.choice.point;
         writeCurve(result, settings_.request,
@@ -145,6 +153,7 @@ private:
                        ? friction
                        : whySkipped(what, source_.scene, source_.frames.camera, device_.facts());
         };
+        options.stop = [this] { return signals_.requested().load(); };
         options.progress = [](size_t number, const TunePoint& point) {
             std::cout << lineOf(number, point) << std::endl;
         };
@@ -181,6 +190,7 @@ private:
     ClockKeeper clock_;
     TuneSource source_;
     Tool tool_;
+    StopSignals signals_; // last, because only the measurement asks for them
 };
 
 } // namespace

@@ -161,7 +161,7 @@ size_t Tuner::addPoint(const Setting& setting, const std::string& varied, const 
 // Runs the settings frame by frame in turn, together with the best one so far. Their times are scaled to
 // its time, so that a change of the machine's speed affects no comparison.
 std::vector<size_t> Tuner::measureFrames(const std::vector<Setting>& settings, const std::string& varied) {
-    if (settings.empty()) {
+    if (settings.empty() || options_.stop()) {
         return {};
     }
     std::vector<std::unique_ptr<Bench>> benches;
@@ -177,6 +177,9 @@ std::vector<size_t> Tuner::measureFrames(const std::vector<Setting>& settings, c
         add(result_.points[best()].setting);
     }
     for (size_t frame = 0; frame < source_.frames.frames.size(); ++frame) {
+        if (options_.stop()) {
+            return {};
+        }
         for (size_t i = 0; i < benches.size(); ++i) {
             benches[i]->run(frame, i < settings.size());
         }
@@ -208,7 +211,7 @@ std::vector<size_t> Tuner::measure(const std::vector<Setting>& settings, const s
         });
         if (alike == sets_.end()) {
             others.push_back(setting);
-        } else {
+        } else if (!options_.stop()) {
             added.push_back(addPoint(setting, varied, alike->second, result_.points[alike->first].published));
         }
     }
@@ -254,9 +257,13 @@ void Tuner::vary(Vary what) {
             trial.skipped = "the time limit of " + roundNumber(options_.limit) + " s was reached";
         }
         if (!settings.empty()) {
-            trial.points = {base};
-            const std::vector<size_t> added = measure(settings, nameOf(what));
-            trial.points.insert(trial.points.end(), added.begin(), added.end());
+            trial.points = measure(settings, nameOf(what));
+            if (trial.points.size() < settings.size()) {
+                trial.skipped = "a signal ended the run";
+            }
+            if (!trial.points.empty()) {
+                trial.points.insert(trial.points.begin(), base);
+            }
         }
     }
     keepBest();
@@ -266,6 +273,9 @@ void Tuner::vary(Vary what) {
 
 TuneResult Tuner::run() {
     measure({settingOf(source_.scene)}, "as written");
+    if (result_.points.empty()) {
+        return std::move(result_);
+    }
     keepBest();
     for (const Vary what : kVaried) {
         vary(what);

@@ -43,11 +43,13 @@ struct TuneOptions {
     // Why a setting need not be measured; empty = it must.
     std::function<std::string(Vary)> skip = [](Vary) { return std::string(); };
     std::function<void(size_t, const TunePoint&)> progress = [](size_t, const TunePoint&) {};
+    // Asked between frames and between points. After the first true no further point is measured.
+    std::function<bool()> stop = [] { return false; };
 };
 
 // All that was measured, and what was chosen.
 struct TuneResult {
-    std::vector<TunePoint> points; // the scene as written first
+    std::vector<TunePoint> points; // the scene as written first; empty = stopped before it was measured
     std::vector<Trial> trials;
     Choice choice;
 

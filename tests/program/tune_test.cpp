@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom tune` on a small recording: its files, the scene that replay loads, and what it rejects.
 #include "tests/rig/program_refusal.h"
+#include "tests/support/eventually.h"
 
+#include <csignal>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -94,6 +96,30 @@ TEST_CASE(
         {"tune", (stage / "scene.yaml").string(), "--error", "1", "--out", (stage / "proj").string()},
         {"--out", "not a result of tune"});
     CHECK(stage.read("proj/scene.yaml") == "mine");
+}
+
+TEST_CASE("tune that is ended by SIGINT writes its points and the best of them; without any, the old result "
+          "stays") {
+    const Stage stage;
+    stillRecording(stage, 10);
+    scene(stage);
+    const std::string before = "# tune: written by 'fathom tune' 1.0\nold";
+    stage.write("tuned/scene.yaml", before);
+    stage.write("tuned/points.csv", "old");
+    const auto words = command(stage, {"--error", "50", "--frames", "8"});
+    pid_t program = startFathom(words, stage / "said");
+    CHECK(testing::eventually([&] { return handlesInterrupt(program); }));
+    CHECK(exitCodeOf(program, SIGINT) == 1);
+    CHECK(has(stage.read("said"), "tune: ended by a signal before the first point"));
+    CHECK(stage.read("tuned/scene.yaml") == before);
+    CHECK(stage.read("tuned/points.csv") == "old");
+
+    program = startFathom(words, stage / "said");
+    CHECK(testing::eventually([&] { return has(stage.read("said"), "  1  as written"); }));
+    CHECK(exitCodeOf(program, SIGINT) == 0);
+    CHECK(has(stage.read("said"), "tune: ended by a signal after "));
+    CHECK(has(stage.read("tuned/scene.yaml"), "a signal ended the run"));
+    CHECK(has(stage.read("tuned/points.csv"), "as written"));
 }
 
 TEST_CASE("tune measures on an analytic twin when a recording shows no still scene, and says so") {
