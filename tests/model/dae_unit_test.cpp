@@ -38,13 +38,14 @@ double widthIn(const std::string& unit) {
 } // namespace
 
 TEST_CASE("The unit of a .dae scales it, also with a comma in its number, and its up axis does not turn it") {
-    for (const auto& [unit, width] : {std::pair<std::string, double>{"", 0.2},
+    for (const auto& [text, width] : {std::pair<std::string, double>{"", 0.2},
                                       {"<unit name='metre'/>", 0.2},
                                       {"<unit meter=''/>", 0.2},
                                       {"<unit meter='0.0254' name='inch'/>", 0.00508},
                                       {"<unit meter='1e-1'/>", 0.02},
                                       {"<unit meter='+0.1'/>", 0.02},
                                       {"<unit meter='0,0254'/>", 0.00508}}) {
+        const std::string& unit = text; // CAPTURE needs a variable
         CAPTURE(unit);
         CHECK(widthIn(unit) == doctest::Approx(width));
     }
