@@ -123,7 +123,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.fadeGain = ramps_.fadeGain();
     tick.springs = input.springs;
     tick.elapsed = input.elapsed;
-    tick.rows = input.pushes != 0 || reaction_.fades() || reaction_.size() > kMinFelt;
+    tick.rows = input.pushes != 0 || reaction_.size() > kMinFelt; // without what fades: that holds nothing
     // Whatever a tick generates in which new data moves the tool comes from the new data.
     tick.appears = reaction_.appears() || input.newData || input.escape;
     tick.repay = reaction_.frameInterval();

@@ -40,7 +40,7 @@ struct PassivityStep {
     Pose springEnd;                        // hand's end of the spring: device pose plus the guidance lead
     dquat baseRhandle{1.0, 0.0, 0.0, 0.0}; // frame of the actuated axes
     Wrench contact;                        // reaction of the regions, unscaled, on actuated axes
-    bool rows = true;                      // some row is active, or the reaction still fades
+    bool rows = true;                      // some row is active, or its reaction still falls
     bool appears = false;                  // the reaction grew without the hand: new data moved a surface
     double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] active: a spring beyond them stores less

@@ -170,6 +170,30 @@ TEST_CASE("After contact the damping is below 1 N and ends within 90 ms, also wh
     CHECK(braked > 0.5);
 }
 
+TEST_CASE("While the force of regions that vanished fades, the damping is below 1 N and ends within 90 ms") {
+    HapticRig rig = restingRig(true), off = restingRig(false);
+    for (HapticRig* r : {&rig, &off}) {
+        r->show(raisedWall(0.015)); // energy that the hand did not give
+        r->sceneAges = false;
+        r->ticks(300);
+        r->show(emptySet(3));
+        r->sceneAges = false;
+    }
+    REQUIRE(rig.cycle->passivity().debt() > 0.1);
+    double braked = 0.0;
+    for (int i = 0; i < 150; ++i) {
+        rig.hand.position.x += 2e-4; // 0.2 m/s across the fading force
+        off.hand.position.x += 2e-4;
+        const StepRecord a = rig.step(), b = off.step();
+        CHECK(b.wrench.force.z > 3.0);
+        const double damping = glm::distance(a.wrench.force, b.wrench.force);
+        CHECK(damping < 1.0);
+        CHECK((i < 95 || damping < 1e-9));
+        braked = std::max(braked, damping);
+    }
+    CHECK(braked > 0.9);
+}
+
 TEST_CASE("Guidance work on the hand does not count as generated energy") {
     Scene scene = handScene();
     scene.fixtures.emplace_back();
