@@ -129,6 +129,9 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.repay = reaction_.frameInterval();
     tick.forceLimit = ramps_.limitScale() * options_.forceLimit;
     tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
+    if (ramps_.off()) { // meanwhile the hand may go anywhere
+        passivity_.reset();
+    }
     return passivity_.step(tick);
 }
 

@@ -23,6 +23,8 @@ double energyOf(double pull, double stiffness, double gain, double limit) {
                           : limit * pull / stiffness - limit * limit / (2.0 * stiffness * gain);
 }
 
+constexpr double kNoLimit = 1e300;
+
 } // namespace
 
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
@@ -47,14 +49,31 @@ PassivityController::PassivityController(const PassivityOptions& options)
 void PassivityController::reset() noexcept {
     applied_.fill({});
     credit_.fill(0.0);
-    recent_ = stored_ = debt_ = dataDebt_ = 0.0;
+    recent_ = stored_ = debt_ = dataDebt_ = given_ = 0.0;
     started_ = false;
 }
 
-double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
-    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.fadeGain, tick.forceLimit) +
-           energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, tick.fadeGain,
-                    tick.torqueLimit);
+double PassivityController::storedIn(const PassivityStep& tick, const Ramp& ramp) const noexcept {
+    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, ramp.gain, ramp.force) +
+           energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, ramp.gain,
+                    ramp.torque);
+}
+
+// [J] that the springs would hold in addition without fades and limits.
+double PassivityController::heldBack(const PassivityStep& tick) const noexcept {
+    return std::max(0.0, storedIn(tick, {1.0, kNoLimit, kNoLimit}) - stored_);
+}
+
+void PassivityController::begin(const PassivityStep& tick) noexcept {
+    stored_ = storedIn(tick, {tick.fadeGain, tick.forceLimit, tick.torqueLimit});
+    given_ = std::clamp(given_ - stored_, 0.0, heldBack(tick));
+}
+
+// Forces have faded out: only the hand's account remains.
+void PassivityController::rest(const PassivityStep& tick) noexcept {
+    const double given = given_ + std::max(0.0, stored_ - std::max(0.0, debt_));
+    reset();
+    given_ = std::min(given, heldBack(tick));
 }
 
 void PassivityController::shift(const dvec3& by, const dquat& turn) noexcept {
@@ -83,17 +102,43 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     // The oldest entry of the ring: the wrench that acted on the hand in the interval that ends now.
     const Applied& acted = applied_[writes_ % (options_.delayTicks + 1)];
     const double damped = -workOf(acted.damper, moved_, turned_);
-    const double stored = storedIn(tick);
+    const Ramp ramp{tick.fadeGain, tick.forceLimit, tick.torqueLimit};
+    const double stored = storedIn(tick, ramp);
+    const double ramped = ramp == ramp_ ? 0.0 : stored - storedIn(tick, ramp_); // by fades and returns
     const auto [actuatedMoved, actuatedTurned] =
         actuated(tick, endMoved, endTurned); // a wrist without a motor dissipates nothing
     const double credit = (options_.damping * glm::dot(actuatedMoved, actuatedMoved) +
                            options_.rotationalDamping * glm::dot(actuatedTurned, actuatedTurned)) /
                           tick.elapsed;
-    const double generatedNow = workOf(acted.contact, endMoved, endTurned) + stored - stored_ - credit;
+    const double fromHand = std::min(ramped, given_); // negative while forces fade
+    const double generatedNow =
+        workOf(acted.contact, endMoved, endTurned) + stored - stored_ - credit - fromHand;
     generated_ += std::max(0.0, generatedNow);
     dissipated_ += damped;
     stored_ = stored;
+    given_ -= fromHand;
+    rememberCredit(credit);
+    debt_ = std::max(debt_ + generatedNow - damped, -recent_);
+    settle(tick, generatedNow, ramped);
+}
 
+// After the debt of a tick is known. What a fade took pays the debt first, and only the rest is the hand's.
+void PassivityController::settle(const PassivityStep& tick, double generated, double ramped) noexcept {
+    if (ramped < 0.0) {
+        const double paid = std::min(-ramped, std::max(0.0, debt_));
+        debt_ -= paid;
+        given_ -= paid;
+    }
+    given_ = given_ > 0.0 ? std::min(given_, heldBack(tick)) : 0.0;
+    const double excess = std::max(0.0, debt_ - stored_), kept = std::exp(-tick.elapsed / kForget);
+    debt_ -= (1.0 - kept) * excess;
+    const bool paced = tick.appears || ramped > 0.0;
+    dataDebt_ =
+        std::clamp((excess > 0.0 ? kept : 1.0) * (dataDebt_ + (paced ? std::max(0.0, generated) : 0.0)), 0.0,
+                   std::max(0.0, debt_));
+}
+
+void PassivityController::rememberCredit(double credit) noexcept {
     double& slot = credit_[ticks_++ % kWindow];
     slot = credit;
     recent_ = 0.0;
@@ -101,12 +146,6 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
          credit_) { // summed again: a running sum would accumulate the rounding of fast ticks
         recent_ += c;
     }
-    debt_ = std::max(debt_ + generatedNow - damped, -recent_);
-    const double excess = std::max(0.0, debt_ - stored), kept = std::exp(-tick.elapsed / kForget);
-    debt_ -= (1.0 - kept) * excess;
-    dataDebt_ = std::clamp((excess > 0.0 ? kept : 1.0) *
-                               (dataDebt_ + (tick.appears ? std::max(0.0, generatedNow) : 0.0)),
-                           0.0, std::max(0.0, debt_));
 }
 
 // What a hand that moves out gets back from the springs is dissipated in proportion [W], so that the debt is
@@ -149,9 +188,12 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
 }
 
 Wrench PassivityController::step(const PassivityStep& tick) noexcept {
-    if (!(tick.fadeGain > 0.0) || !(tick.elapsed > 0.0) || !isFinite(tick.device) ||
-        !isFinite(tick.springEnd)) {
+    if (!(tick.elapsed > 0.0) || !isFinite(tick.device) || !isFinite(tick.springEnd)) {
         reset();
+        return {};
+    }
+    if (!(tick.fadeGain > 0.0)) {
+        rest(tick);
         return {};
     }
     Wrench damper;
@@ -160,9 +202,10 @@ Wrench PassivityController::step(const PassivityStep& tick) noexcept {
         giveUpWithoutRows(tick);
         damper = control(tick);
     } else {
-        stored_ = storedIn(tick);
+        begin(tick);
     }
     started_ = true;
+    ramp_ = {tick.fadeGain, tick.forceLimit, tick.torqueLimit};
     device_ = tick.device;
     springEnd_ = tick.springEnd;
     if (!std::isfinite(debt_) || !std::isfinite(stored_)) {

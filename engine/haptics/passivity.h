@@ -11,6 +11,9 @@
 // for any region and any hand path, and for rotations too (the Hessian of |log q|^2 / 2 is at most 1), so the
 // controller stays inactive. A surface that jumps by delta at penetration p adds K p delta + K delta^2 / 2 to
 // S. All of it is counted in the same tick, before the hand receives any.
+//
+// Forces that fade take energy from the springs that the hand has put in. The hand's account remembers it,
+// and pays for what the springs hold again when the forces return. Only energy beyond it counts as generated.
 #pragma once
 
 #include "engine/haptics/coupling.h"
@@ -44,7 +47,7 @@ struct PassivityStep {
     bool appears = false;                  // the reaction grew without the hand: new data moved a surface
     double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] active: a spring beyond them stores less
-    double fadeGain = 1.0;                       // 0..1, factor of all fades; 0 resets the observer
+    double fadeGain = 1.0;                       // 0..1, factor of all fades; 0 forgets any debt
     Springs springs;                             // active
     double elapsed = 0.001;                      // T [s] measured since the tick before; nominal in lockstep
 };
@@ -71,6 +74,8 @@ public:
     double debt() const noexcept { return debt_; }
     double generated() const noexcept { return generated_; }   // [J] total energy generated
     double dissipated() const noexcept { return dissipated_; } // [J] total, by the controller
+    // [J] that the hand put in and that fades took from the springs
+    double given() const noexcept { return given_; }
 
     static constexpr double kMinSpeed = 1e-4;     // [m/s] a slower hand is not damped
     static constexpr double kMinTurnSpeed = 1e-3; // [rad/s]
@@ -95,10 +100,19 @@ private:
     struct Applied {
         Wrench contact, damper;
     };
+    struct Ramp { // what scales and limits the springs
+        double gain = 1.0, force = 0.0, torque = 0.0;
+        bool operator==(const Ramp&) const = default;
+    };
     static constexpr size_t kMaxDelay = 64;
 
-    double storedIn(const PassivityStep& tick) const noexcept;
+    double storedIn(const PassivityStep& tick, const Ramp& ramp) const noexcept;
+    double heldBack(const PassivityStep& tick) const noexcept;
+    void begin(const PassivityStep& tick) noexcept;
+    void rest(const PassivityStep& tick) noexcept;
     void observe(const PassivityStep& tick) noexcept;
+    void settle(const PassivityStep& tick, double generated, double ramped) noexcept;
+    void rememberCredit(double credit) noexcept;
     Wrench actuated(const PassivityStep& tick, const dvec3& moved, const dvec3& turned) const noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;
     double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
@@ -106,6 +120,8 @@ private:
 
     PassivityOptions options_;
     std::array<Applied, kMaxDelay + 1> applied_{};
+    Ramp ramp_;                            // of the previous tick
+    double given_ = 0.0;                   // [J]
     std::array<double, kWindow> credit_{}; // [J] dissipated by b, per tick
     size_t writes_ = 0, ticks_ = 0;
     double recent_ = 0.0; // sum of credit_

@@ -194,6 +194,42 @@ TEST_CASE("While the force of regions that vanished fades, the damping is below 
     CHECK(braked > 0.9);
 }
 
+TEST_CASE("Forces that fade in a gap of frames and return do not brake a hand that slides on a wall") {
+    for (const int gap : {150, 400, 900}) { // [ms] without a frame
+        CAPTURE(gap);
+        HapticRig with = restingRig(true), without = restingRig(false);
+        double weakest = 10.0;
+        for (int i = 0; i < gap + 400; ++i) {
+            dvec3 force[2];
+            for (HapticRig* rig : {&with, &without}) {
+                rig->hand.position.x = 0.02 * std::sin(0.01 * i); // up to 0.2 m/s
+                rig->sceneAges = i < gap;
+                force[rig == &with ? 0 : 1] = rig->step().wrench.force;
+            }
+            CHECK(glm::distance(force[0], force[1]) < 0.05);
+            weakest = std::min(weakest, glm::length(force[0]));
+        }
+        CHECK(weakest < (gap == 150 ? 2.9 : gap == 400 ? 1.6 : 1e-9)); // it faded
+        CHECK(forceOf(with.step()) > 2.5);                             // and returned
+    }
+}
+
+TEST_CASE("What a hand presses deeper while forces are faded out is energy that it did not give") {
+    HapticRig rig = restingRig(true);
+    const double depth = forceOf(rig.step()) / 1000.0; // [m]
+    rig.sceneAges = true;
+    rig.ticks(800);
+    CHECK(rig.cycle->passivity().given() == doctest::Approx(500.0 * depth * depth).epsilon(0.05));
+    rig.hand.position.z -= 0.003;
+    rig.ticks(50);
+    rig.sceneAges = false;
+    rig.ticks(250);
+    const double deeper = depth + 0.003;
+    CHECK(rig.cycle->passivity().given() < 1e-5);
+    CHECK(rig.cycle->passivity().debt() ==
+          doctest::Approx(500.0 * (deeper * deeper - depth * depth)).epsilon(0.05));
+}
+
 TEST_CASE("Guidance work on the hand does not count as generated energy") {
     Scene scene = handScene();
     scene.fixtures.emplace_back();
