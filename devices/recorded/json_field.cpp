@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace fathom {
 
@@ -41,6 +42,35 @@ std::string reasonOf(const nlohmann::json::exception& e) {
     std::replace_if(
         reason.begin(), reason.end(), [](unsigned char c) { return c >= 0x80; }, '?');
     return excerpt(std::move(reason), kReasonCharacters);
+}
+
+// Refuses an object with two values of one key, of which the library would keep the last. Reads only the keys:
+// values are discarded.
+void refuseKeysTwice(const std::filesystem::path& file, const std::string& text) {
+    struct Level {
+        std::set<std::string> keys;
+        std::string last;
+    };
+    std::vector<Level> open; // objects and lists around the value that is read
+    using Event = nlohmann::json::parse_event_t;
+    const auto watch = [&](int depth, Event event, const nlohmann::json& parsed) {
+        open.resize(static_cast<size_t>(depth));
+        if (event == Event::object_start || event == Event::array_start) {
+            open.emplace_back();
+        } else if (event == Event::key) {
+            open.back().last = parsed.get<std::string>();
+            if (!open.back().keys.insert(open.back().last).second) {
+                std::string path;
+                for (const Level& level : open) {
+                    path += (path.empty() || level.last.empty() ? "" : ".") + level.last;
+                }
+                throw BadInput(file.string(), excerpt(path, kShownCharacters), "given twice",
+                               "each key once in an object");
+            }
+        }
+        return false;
+    };
+    (void)nlohmann::json::parse(text, watch);
 }
 
 // To a few levels: deeply nested files could overflow the stack.
@@ -170,6 +200,7 @@ nlohmann::json parseJsonFile(const std::filesystem::path& file) {
     const std::string text = readTextFile(file);
     refuseUtf16(file, text, "a readable text file");
     try {
+        refuseKeysTwice(file, text);
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) { // its message has line, column and the last token
         const size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());

@@ -51,7 +51,7 @@ private:
     std::string path_; // empty for the whole document
 };
 
-// Throws BadInput that names the file when it cannot be read or is not JSON.
+// Throws BadInput that names the file when it cannot be read, is not JSON, or gives a key twice.
 nlohmann::json parseJsonFile(const std::filesystem::path& file);
 
 } // namespace fathom

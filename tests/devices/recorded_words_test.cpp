@@ -205,3 +205,18 @@ TEST_CASE("An index with the backslashes of Windows names the same images") {
     writeDepth(folder.path() / "depth\\0.png", kSmallWidth, kSmallHeight, 700); // a name with a backslash
     CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{700, 1001});
 }
+
+TEST_CASE("A key that intrinsics.json gives twice is refused by its path, also in a block") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    const auto refused = [&](const std::string& lens) {
+        folder.write("intrinsics.json", lens);
+        return recordingRefusal(folder.path());
+    };
+    const std::string lens = kSmallIntrinsics.substr(0, kSmallIntrinsics.size() - 1);
+    lineSays(refused(lens + R"(, "fx": 13})"),
+             "intrinsics.json: fx: given twice (allowed: each key once in an object)");
+    lineSays(refused(lens + R"(, "more": [[{"a": 1}, {"a": {"b": 1, "c": 2, "b": 3}}]]})"),
+             "intrinsics.json: more.a.b: given twice (allowed: ");
+    CHECK(refused(lens + R"(, "more": [{"a": {"b": 1}, "b": {"a": 1}}, {"a": {"b": 1}}, 1]})") == "");
+}
