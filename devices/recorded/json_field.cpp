@@ -44,8 +44,7 @@ std::string reasonOf(const nlohmann::json::exception& e) {
     return excerpt(std::move(reason), kReasonCharacters);
 }
 
-// Refuses an object with two values of one key, of which the library would keep the last. Reads only the keys:
-// values are discarded.
+// Refuses an object with two values of one key: the library would keep the last one. Discards all values.
 void refuseKeysTwice(const std::filesystem::path& file, const std::string& text) {
     struct Level {
         std::set<std::string> keys;

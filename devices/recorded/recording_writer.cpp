@@ -231,6 +231,12 @@ void RecordingWriter::end() noexcept {
     for (std::thread& thread : threads_) {
         thread.join();
     }
+    if (added_ == 0 && !threads_.empty()) { // once
+        std::error_code ignored;
+        for (const char* name : {"intrinsics.json", "associations.txt", "depth.txt", "depth", "rgb"}) {
+            fs::remove(folder_ / name, ignored); // not a folder with files
+        }
+    }
     threads_.clear();
 }
 

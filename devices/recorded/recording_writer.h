@@ -48,7 +48,8 @@ public:
     void close() noexcept;
     // True when nothing is queued or being written. Any thread.
     bool written() const;
-    // Waits for all images. Rethrows an encoder's exception.
+    // Waits for all images. Without a frame it removes its files, so that the folder can be used again.
+    // Rethrows an encoder's exception.
     void finish();
 
     uint32_t frames() const { return added_; }

@@ -123,9 +123,27 @@ TEST_CASE("A recording with depth only is written and read") {
 
 TEST_CASE("A folder with a recording is not overwritten, and an unwritable one is an error") {
     const TemporaryFolder folder;
-    { RecordingWriter writer(folder.path() / "rec", someCamera(true), 1); }
+    const CameraInfo info = someCamera(true);
+    const Image image = someImages(info, 1)[0];
+    RecordingWriter(folder.path() / "rec", info, 1).add({1.0, image.depth, image.colour, {}});
     CHECK_THROWS_AS(RecordingWriter(folder.path() / "rec", someCamera(true), 1), BadInput);
     CHECK_THROWS_AS(RecordingWriter("/proc/rec", someCamera(true), 1), Error);
+}
+
+TEST_CASE("A writer without frames removes what it made and nothing else, so that the folder can be used") {
+    const TemporaryFolder folder;
+    folder.write("notes.txt", "mine");
+    for (const bool colour : {true, false}) {
+        for (const bool finished : {true, false}) {
+            RecordingWriter writer(folder.path(), someCamera(true, colour), 1);
+            CHECK(std::filesystem::exists(folder.path() / "intrinsics.json"));
+            if (finished) {
+                writer.finish();
+            }
+        }
+        CHECK(folder.read("notes.txt") == "mine");
+        CHECK(std::ranges::distance(std::filesystem::directory_iterator(folder.path())) == 1);
+    }
 }
 
 TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds files, is never written to") {
