@@ -14,6 +14,7 @@ public:
     explicit HapticsCsv(const std::filesystem::path& file); // every call throws Error that names the file
     void add(const StepRecord& tick);
     void commit();
+    OutputFile& file() { return file_; }
     std::string digest() const { return digest_.hex(); }
 
     static constexpr const char* kHeader =

@@ -6,6 +6,7 @@
 #include "engine/types/output_file.h"
 
 #include <exception>
+#include <utility>
 
 namespace fathom {
 
@@ -66,6 +67,12 @@ Image::Image(int width, int height, Colour background)
     setColour(background);
     cairo_paint(cr_);
 }
+
+Image::Image(Image&& other) noexcept
+    : width_(other.width_)
+    , height_(other.height_)
+    , surface_(std::exchange(other.surface_, nullptr))
+    , cr_(std::exchange(other.cr_, nullptr)) {}
 
 Image::~Image() {
     cairo_destroy(cr_);
@@ -141,7 +148,12 @@ void Image::endPixels() const {
 
 void Image::writePng(const std::filesystem::path& file) const {
     OutputFile out(file);
-    PngSink sink{out, nullptr};
+    writePng(out);
+    out.commit();
+}
+
+void Image::writePng(OutputFile& file) const {
+    PngSink sink{file, nullptr};
     const cairo_status_t drawn = cairo_status(cr_);
     const cairo_status_t status = drawn == CAIRO_STATUS_SUCCESS
                                       ? cairo_surface_write_to_png_stream(surface_, writeChunk, &sink)
@@ -150,9 +162,8 @@ void Image::writePng(const std::filesystem::path& file) const {
         std::rethrow_exception(sink.failure);
     }
     if (status != CAIRO_STATUS_SUCCESS) {
-        throw Error(file.string() + ": cannot draw: " + cairo_status_to_string(status));
+        throw Error(file.path().string() + ": cannot draw: " + cairo_status_to_string(status));
     }
-    out.commit();
 }
 
 } // namespace fathom

@@ -9,6 +9,8 @@
 
 namespace fathom {
 
+class OutputFile;
+
 struct Colour {
     double r = 0.0, g = 0.0, b = 0.0, a = 1.0; // 0..1, not premultiplied
 
@@ -22,7 +24,7 @@ enum class Align { Left, Centre, Right };
 class Image {
 public:
     Image(int width, int height, Colour background);
-    Image(const Image&) = delete;
+    Image(Image&& other) noexcept;
     Image& operator=(const Image&) = delete;
     ~Image();
 
@@ -50,6 +52,7 @@ public:
 
     // Writes the file completely or not at all. Throws Error that names the file.
     void writePng(const std::filesystem::path& file) const;
+    void writePng(OutputFile& file) const; // without commit
 
 private:
     int width_, height_;

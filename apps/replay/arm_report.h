@@ -22,7 +22,7 @@ public:
     ArmReport(const std::filesystem::path& file, const ArmSetup& setup, const std::string& realArm = "");
 
     void add(const TickRow& row);
-    void commit() { file_.commit(); }
+    OutputFile& file() { return file_; }
     // links: from ToolAudit::linkPenetration(); empty = not audited.
     ReplaySummary::Arm summary(const std::vector<double>& links);
 

@@ -30,8 +30,4 @@ void FramesCsv::add(const FrameReport& report, double t) {
     file_.write(row_.end());
 }
 
-void FramesCsv::commit() {
-    file_.commit();
-}
-
 } // namespace fathom

@@ -19,7 +19,7 @@ public:
     // t: capture time in the run [s]. report.passMs: in the order of the constructor's passes; missing ones
     // are written as unknown.
     void add(const FrameReport& report, double t);
-    void commit();
+    OutputFile& file() { return file_; }
 
 private:
     OutputFile file_;

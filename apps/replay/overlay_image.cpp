@@ -9,15 +9,15 @@
 
 namespace fathom {
 
-void writeOverlay(const std::filesystem::path& file, const OverlayInput& input) {
+Image drawOverlay(const OverlayInput& input) {
     constexpr int kMinWidth = 960;
     const ImageView view = imageView(input.camera, input.baseTcamera, !overlay::hasColour(input), kMinWidth);
     if (view.width() <= 0 || view.height() <= 0) {
-        throw Error(file.string() + ": the camera has no image size");
+        throw Error("overlay.png: the camera has no image size");
     }
     const double size = std::max(1.0, view.width() / 1280.0);
     const int caption = static_cast<int>(std::lround(88.0 * size));
-    const Image image(view.width(), view.height() + caption, overlay::kShade);
+    Image image(view.width(), view.height() + caption, overlay::kShade);
     const overlay::Canvas canvas{image, view, size};
     overlay::drawCameraImage(canvas, input);
     cairo_save(image.cr());
@@ -35,7 +35,7 @@ void writeOverlay(const std::filesystem::path& file, const OverlayInput& input) 
     overlay::drawForce(canvas, input);
     cairo_restore(image.cr());
     overlay::drawCaption(canvas, input, caption);
-    image.writePng(file);
+    return image;
 }
 
 } // namespace fathom

@@ -2,19 +2,19 @@
 // Draws overlay.png: the last camera image with regions, guidance, tool, hand and force.
 #pragma once
 
+#include "apps/output/image.h"
 #include "engine/contact/host_fixtures.h"
 #include "engine/cycle/step_record.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/sphere_tree.h"
 
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace fathom {
 
-// Input of writeOverlay(), which reads it only during the call. Poses in the base frame [m].
+// Input of drawOverlay(), which reads it only during the call. Poses in the base frame [m].
 struct OverlayInput {
     CameraInfo camera;
     Pose baseTcamera;
@@ -32,7 +32,7 @@ struct OverlayInput {
 // Regions: translucent red with hatch and outline (held regions have the opposite hatch and a dashed
 // outline). Guidance: blue cross, disc and normal. Tool: solid outline; hand: dashed; force: amber arrow. The
 // time grows with the spheres' height in pixels: 60,000 spheres of 100 pixels take less than a second. Throws
-// Error that names the file.
-void writeOverlay(const std::filesystem::path& file, const OverlayInput& input);
+// Error when the camera has no image size.
+Image drawOverlay(const OverlayInput& input);
 
 } // namespace fathom

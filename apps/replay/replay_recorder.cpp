@@ -189,12 +189,13 @@ std::vector<ReplaySummary::FixtureRow> ReplayRecorder::fixtureRows() const {
     return rows;
 }
 
-void ReplayRecorder::writeImages(const Ending& ending) const {
+void ReplayRecorder::writeImages(const Ending& ending, OutputFile& tracesFile,
+                                 OutputFile& overlayFile) const {
     TracesLabels labels;
     labels.subtitle = ending.title;
     labels.forceLimit = ending.forceLimit;
     labels.torqueLimit = ending.torqueLimit;
-    writeTraces(out_ / "traces.png", history_, labels);
+    drawTraces(history_, labels).writePng(tracesFile);
 
     OverlayInput overlay;
     overlay.camera = ending.camera;
@@ -213,15 +214,25 @@ void ReplayRecorder::writeImages(const Ending& ending) const {
         arm_ != nullptr ? arm_->aboutTip(overlay.tick.arm.posture) : std::vector<Sphere>{};
     overlay.leaves = arm_ != nullptr ? std::span<const Sphere>(links) : ending.leaves;
     overlay.title = ending.title;
-    writeOverlay(out_ / "overlay.png", overlay);
+    drawOverlay(overlay).writePng(overlayFile);
 }
 
 ReplaySummary ReplayRecorder::finish(const Ending& ending) {
+    OutputFile traces(out_ / "traces.png"), overlay(out_ / "overlay.png"), text(out_ / "summary.json");
+    writeImages(ending, traces, overlay);
+    const ReplaySummary summary = summarise(ending);
+    text.write(toJson(summary));
+    std::vector<OutputFile*> files{&haptics_.file(), &frames_.file(), &traces, &overlay, &text};
+    if (armReport_) {
+        files.insert(files.begin(), &armReport_->file());
+    }
+    commitTogether(files);
+    return summary;
+}
+
+ReplaySummary ReplayRecorder::summarise(const Ending& ending) {
     ReplaySummary summary;
     summary.digest = haptics_.digest();
-    haptics_.commit();
-    frames_.commit();
-    writeImages(ending);
     summary.frames = {frameCount_,
                       ending.skipped,
                       first_,
@@ -242,7 +253,6 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
         summary.guidance.push_back(guidance);
     }
     if (armReport_) {
-        armReport_->commit();
         summary.arm = armReport_->summary(ending.linkPenetration);
     }
     watch_.end();
@@ -253,7 +263,6 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     }
     summary.device = ending.device;
     summary.lockstep = ending.lockstep;
-    writeSummary(out_ / "summary.json", summary);
     return summary;
 }
 

@@ -68,7 +68,7 @@ public:
         std::vector<std::string> warnings;   // of the camera
         std::vector<double> linkPenetration; // [m] from ToolAudit; empty = no arm or no audit
     };
-    // Writes all files and returns the content of summary.json.
+    // Writes all files, or none and throws; returns the content of summary.json.
     ReplaySummary finish(const Ending& ending);
 
     RunWarnings& warnings() { return watch_.warnings(); }
@@ -83,7 +83,8 @@ private:
     ReplaySummary::GuidanceRow& guidanceOf(uint32_t row);
     void addGuidance(const HostFixtures& set);
     std::vector<ReplaySummary::FixtureRow> fixtureRows() const;
-    void writeImages(const Ending& ending) const;
+    void writeImages(const Ending& ending, OutputFile& tracesFile, OutputFile& overlayFile) const;
+    ReplaySummary summarise(const Ending& ending); // once
 
     std::filesystem::path out_;
     OutputLock lock_;

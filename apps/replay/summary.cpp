@@ -2,7 +2,6 @@
 #include "apps/replay/summary.h"
 
 #include "apps/replay/tick_totals.h"
-#include "engine/types/output_file.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -182,12 +181,6 @@ std::string toJson(const ReplaySummary& summary) {
     json["warnings"] = summary.warnings;
     // A device or class name may contain invalid UTF-8, which must not fail the summary.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-void writeSummary(const std::filesystem::path& file, const ReplaySummary& summary) {
-    OutputFile out(file);
-    out.write(toJson(summary));
-    out.commit();
 }
 
 } // namespace fathom

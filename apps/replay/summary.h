@@ -6,7 +6,6 @@
 #include "engine/types/pose.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -104,7 +103,5 @@ struct ReplaySummary {
 
 // The text of summary.json. Keys and their order are part of the contract of `replay --out`.
 std::string toJson(const ReplaySummary& summary);
-// Throws Error that names the file.
-void writeSummary(const std::filesystem::path& file, const ReplaySummary& summary);
 
 } // namespace fathom

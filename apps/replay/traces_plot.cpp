@@ -158,8 +158,8 @@ std::string remark(const TraceHistory& history) {
 
 } // namespace
 
-void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels) {
-    const Image image(kWidth, kHeight, kPaper);
+Image drawTraces(const TraceHistory& history, const TracesLabels& labels) {
+    Image image(kWidth, kHeight, kPaper);
     const PlotAxis time = timeAxis(history);
     const Series series[] = {{"Force",
                               "N",
@@ -195,7 +195,7 @@ void writeTraces(const std::filesystem::path& file, const TraceHistory& history,
     }
     image.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);
     drawLegend(image, seen, frameTicks, limits, remark(history));
-    image.writePng(file);
+    return image;
 }
 
 } // namespace fathom

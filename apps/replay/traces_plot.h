@@ -3,9 +3,9 @@
 // paper.
 #pragma once
 
+#include "apps/output/image.h"
 #include "apps/replay/trace_history.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -20,7 +20,7 @@ struct TracesLabels {
 
 // 1600 x 1000 pixels, two panels with one time axis [s]. The background is sand in contact, blue with
 // guidance, hatched red when escaping or trapped (a few ticks: a mark at the axis), grey when off or fading.
-// Accepts runs of any length, also empty ones. Throws Error that names the file.
-void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels);
+// Accepts runs of any length, also empty ones.
+Image drawTraces(const TraceHistory& history, const TracesLabels& labels);
 
 } // namespace fathom

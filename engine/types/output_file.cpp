@@ -73,14 +73,22 @@ void OutputFile::write(const void* bytes, size_t count) {
     }
 }
 
-void OutputFile::commit() {
+void OutputFile::complete() {
     refuseReplacing(); // also a file that was read since
     flush();
     if (!isOpenAs(descriptor_, temporary_)) {
         ::close(std::exchange(descriptor_, -1));
         throw Error(path_.string() + ": cannot write: another program writes the same file");
     }
-    // A network file system reports a full disk at close(). No retry: the descriptor is closed either way.
+    // A network file system reports a full disk at close(), also of a duplicate.
+    if (const int duplicate = ::dup(descriptor_); duplicate >= 0 && ::close(duplicate) != 0) {
+        fail("cannot write");
+    }
+}
+
+void OutputFile::commit() {
+    complete();
+    // No retry: the descriptor is closed either way.
     if (::close(std::exchange(descriptor_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
         const int reason = errno;
         ::unlink(temporary_.c_str());
@@ -120,6 +128,18 @@ void OutputFile::writeAll(const char* bytes, size_t count) {
 
 void OutputFile::fail(const char* what) const {
     throw Error(path_.string() + ": " + what + ": " + std::strerror(errno));
+}
+
+void commitTogether(std::span<OutputFile* const> files) {
+    for (OutputFile* file : files) {
+        file->complete();
+    }
+    if (!files.empty()) {
+        ::unlink(files.back()->path().c_str());
+    }
+    for (OutputFile* file : files) {
+        file->commit();
+    }
 }
 
 } // namespace fathom

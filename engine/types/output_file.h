@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,8 @@ public:
     void write(std::string_view text) { write(text.data(), text.size()); }
     // Flushes, closes and renames over `path`. No writes after this.
     void commit();
+    // What can fail of commit() before the rename, such as a full disk. No writes after this.
+    void complete();
 
     const std::filesystem::path& path() const { return path_; }
 
@@ -45,5 +48,9 @@ private:
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };
+
+// Commits files that belong together: all are complete before the first one gets its name. The last file
+// marks a complete set: its older version is removed before.
+void commitTogether(std::span<OutputFile* const> files);
 
 } // namespace fathom

@@ -107,7 +107,7 @@ TEST_CASE("haptics.csv has the header of the contract and every column in its pl
 TEST_CASE("An empty run gives a header only") {
     const ScratchFolder folder;
     HapticsCsv(folder.path() / "h.csv").commit();
-    FramesCsv(folder.path() / "f.csv", {}).commit();
+    FramesCsv(folder.path() / "f.csv", {}).file().commit();
     CHECK(split(textOf(folder.path() / "h.csv"), '\n').size() == 1);
     CHECK(textOf(folder.path() / "f.csv") ==
           "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms,publish_ms,"
@@ -125,7 +125,7 @@ TEST_CASE("frames.csv has one column per pass in the order of the plan, and nan 
     frame.uploadMs = 0.25, frame.publishMs = 4.0, frame.answerableMs = 4.5;
     frame.passMs = {1.0, 3.0};
     csv.add(frame, 0.5);
-    csv.commit();
+    csv.file().commit();
     CHECK(textOf(folder.path() / "f.csv") ==
           "index,t_s,valid,forbidden_points,spheres,patches,nodes,"
           "guidance_count,upload_ms,classify_ms,surface_ms,"

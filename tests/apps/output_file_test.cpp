@@ -99,6 +99,31 @@ TEST_CASE("Of two writers of one file, the first one fails and the second one's 
     CHECK(textOf(folder.path() / "a.csv") == "second");
 }
 
+TEST_CASE("Files that belong together are replaced all or not at all") {
+    const ScratchFolder folder;
+    const auto write = [&](const std::string& text) {
+        OutputFile first(folder.path() / "a.csv"), last(folder.path() / "b.json");
+        first.write("new");
+        last.write(text);
+        OutputFile* const files[] = {&first, &last};
+        commitTogether(files);
+    };
+    const auto texts = [&] {
+        return textOf(folder.path() / "a.csv") + " " + textOf(folder.path() / "b.json");
+    };
+    put(folder.path() / "a.csv", "old");
+    put(folder.path() / "b.json", "old");
+    {
+        const FileSizeLimit small(3);
+        CHECK_THROWS_AS(write("more"), Error);
+    }
+    CHECK(texts() == "old old");
+    CHECK(folder.files() == 2);
+    write("more");
+    CHECK(texts() == "new more");
+    CHECK(folder.files() == 2);
+}
+
 TEST_CASE("A file that was read is not replaced, under its own name or by a link") {
     const ScratchFolder folder;
     put(folder.path() / "in.txt", "input");

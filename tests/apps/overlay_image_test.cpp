@@ -167,7 +167,7 @@ TEST_CASE("The overlay is red over a region, has the image's colour outside, and
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);
-    writeOverlay(folder.path() / "overlay.png", scene.input);
+    drawOverlay(scene.input).writePng(folder.path() / "overlay.png");
     const PngImage image(folder.path() / "overlay.png");
     CHECK(image.width() == 161 * 6);
     CHECK(image.height() > 121 * 6);
@@ -190,7 +190,7 @@ TEST_CASE(
     scene.input.depth = depth;
     scene.input.set = nullptr;
     const auto path = folder.path() / "overlay.png";
-    writeOverlay(path, scene.input);
+    drawOverlay(scene.input).writePng(path);
     {
         const PngImage image(path);
         CHECK(std::abs(image.red(100, 300) - image.blue(100, 300)) <= 2);
@@ -204,9 +204,9 @@ TEST_CASE(
     scene.input.tick.wrench.force = {0, std::nan(""), 0};
     scene.input.tick.guidance = std::nan("");
     std::filesystem::remove(path); // read above, and inputs are never replaced
-    writeOverlay(path, scene.input);
+    drawOverlay(scene.input).writePng(path);
     scene.input.camera = CameraInfo{};
-    CHECK_THROWS_AS(writeOverlay(path, scene.input), Error);
+    CHECK_THROWS_AS(drawOverlay(scene.input).writePng(path), Error);
     CHECK(folder.files() == 1);
 }
 
@@ -231,7 +231,7 @@ TEST_CASE("An overlay of 60 thousand spheres has twice the width of its camera's
         s.source[i] = static_cast<uint32_t>(i);
         s.fixture[i] = 0;
     }
-    writeOverlay(folder.path() / "overlay.png", scene.input);
+    drawOverlay(scene.input).writePng(folder.path() / "overlay.png");
     CHECK(PngImage(folder.path() / "overlay.png").width() == 1280);
 }
 
@@ -273,7 +273,7 @@ TEST_CASE("The tint of a tool that leaves the image covers the tool in the image
     }
     scene.input.leaves = leaves;
     scene.input.tick.tool.position = scene.input.tick.device.position = {0.5, 0.0, 0.5}; // has a mark
-    writeOverlay(folder.path() / "overlay.png", scene.input);
+    drawOverlay(scene.input).writePng(folder.path() / "overlay.png");
     const PngImage image(folder.path() / "overlay.png");
     const ImageView view = imageView(scene.set.camera, Pose{}, true, 960);
     const int plain = image.red(900, 60);

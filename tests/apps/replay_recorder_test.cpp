@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay reports about fixtures that were edited in the recording.
+// The files of a replay, and what it reports about fixtures that were edited in the recording.
 #include "apps/replay/replay_recorder.h"
 
+#include "engine/types/error.h"
+#include "tests/rig/file_size_limit.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -24,6 +26,35 @@ GuidancePose seen(uint32_t fixture, uint32_t count) {
 }
 
 } // namespace
+
+TEST_CASE("A replay whose images cannot be written leaves every file of the run before as it was") {
+    const ScratchFolder out;
+    const std::vector<const char*> names{"haptics.csv", "frames.csv", "traces.png", "overlay.png",
+                                         "summary.json"};
+    for (const char* name : names) {
+        out.write(name, "old");
+    }
+    const Scene scene;
+    CameraInfo camera;
+    camera.depth = {64, 48, 60.0, 60.0, 31.5, 23.5};
+    ReplayRecorder::Ending ending;
+    ending.camera = camera;
+    const auto replay = [&] { ReplayRecorder(out.path(), scene, {camera, ""}, {}, false).finish(ending); };
+    {
+        const FileSizeLimit small(2000); // the header of haptics.csv, but no image
+        CHECK_THROWS_WITH_AS(replay(), doctest::Contains("traces.png: cannot write"), Error);
+    }
+    for (const char* name : names) {
+        CAPTURE(name);
+        CHECK(out.read(name) == "old");
+    }
+    CHECK(out.files() == names.size());
+    replay();
+    for (const char* name : names) {
+        CAPTURE(name);
+        CHECK(out.read(name) != "old");
+    }
+}
 
 TEST_CASE(
     "A replay reports targets by their class when an edit adds guidance classes, and when one removes them") {

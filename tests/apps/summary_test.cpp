@@ -79,7 +79,7 @@ TEST_CASE("Unknown and non-finite values are null, and bytes that are not UTF-8 
     summary.haptic.marginPassiveMin = 0.1;
     summary.guidance.push_back({"body", std::nullopt, dvec3(kNan), std::nullopt, 0});
     summary.device = "bad \xff\xfe name";
-    writeSummary(folder.path() / "summary.json", summary);
+    put(folder.path() / "summary.json", toJson(summary));
     const std::string text = textOf(folder.path() / "summary.json");
     const Ordered json = Ordered::parse(text);
     CHECK(json["haptic"]["max_penetration_m"].is_null());

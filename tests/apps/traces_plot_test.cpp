@@ -149,7 +149,7 @@ TEST_CASE("The force trace follows the scale of its axis over 1 s and 1 h, and o
             history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis to 10 N
         }
         std::filesystem::remove(path); // read below, and inputs are never replaced
-        writeTraces(path, history, {"title", "subtitle", 20.0, 0.9});
+        drawTraces(history, {"title", "subtitle", 20.0, 0.9}).writePng(path);
         const PngImage image(path);
         REQUIRE(image.width() == traces::kWidth);
         REQUIRE(image.height() == traces::kHeight);
@@ -183,7 +183,7 @@ TEST_CASE("Escapes of single ticks are marks at the axis, and only a part that e
                                         : StepState::Contact));
         }
         const auto path = folder.path() / ("traces" + std::to_string(count) + ".png");
-        writeTraces(path, history, {"title", "subtitle", 20.0, 2.0});
+        drawTraces(history, {"title", "subtitle", 20.0, 2.0}).writePng(path);
         const PngImage image(path);
         const auto redPixels = [&](double from, double to, int top, int bottom) { // of shares of the run
             const double wide = traces::kRight - traces::kLeft;
@@ -213,11 +213,11 @@ TEST_CASE("An empty run, a run of zeros and a run of NaN give an image without a
     for (const TraceHistory& history : {TraceHistory{}, zeros, nothing}) {
         const auto path = folder.path() / "traces.png";
         std::filesystem::remove(path); // read below, and inputs are never replaced
-        writeTraces(path, history, {"t", "bad \xff byte", std::nullopt, std::nan("")});
+        drawTraces(history, {"t", "bad \xff byte", std::nullopt, std::nan("")}).writePng(path);
         const PngImage image(path);
         CHECK(image.width() == 1600);
         CHECK(topInk(image, static_cast<int>(traces::kLeft) + 300, 160, 300) == -1);
     }
     CHECK(folder.files() == 1);
-    CHECK_THROWS_AS(writeTraces(folder.path() / "none" / "a.png", zeros, {}), Error);
+    CHECK_THROWS_AS(drawTraces(zeros, {}).writePng(folder.path() / "none" / "a.png"), Error);
 }
