@@ -76,25 +76,26 @@ void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::fi
 
 } // namespace
 
-void makeOutputFolder(const std::filesystem::path& folder) {
+bool makeOutputFolder(const std::filesystem::path& folder) {
     if (folder.empty()) {
         throw BadInput("--out", "value", "empty", "a folder");
     }
     std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
+    const bool made = std::filesystem::create_directories(folder, failed);
     if (failed == std::errc::no_space_on_device) {
         throw Error(folder.string() + ": cannot use as output folder: " + failed.message());
     }
     if (failed || !std::filesystem::is_directory(folder, failed)) {
         refuseFolder(folder, failed ? failed.message() : "not a folder");
     }
+    return made;
 }
 
 // The file may be removed between open() and flock(), by the process that held it: then the lock is on a file
 // without a name, and the next attempt opens the new one.
 OutputLock::OutputLock(const std::filesystem::path& folder)
-    : file_(folder / ".fathom.lock") {
-    makeOutputFolder(folder);
+    : file_(folder / ".fathom.lock")
+    , made_(makeOutputFolder(folder)) {
     do {
         if (descriptor_ >= 0) {
             ::close(descriptor_);
@@ -123,11 +124,15 @@ OutputLock::OutputLock(const std::filesystem::path& folder)
 
 OutputLock::OutputLock(OutputLock&& other) noexcept
     : file_(std::move(other.file_))
+    , made_(other.made_)
     , descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 OutputLock::~OutputLock() {
     if (descriptor_ >= 0) {
         ::unlink(file_.c_str());
+        if (made_) {
+            ::rmdir(file_.parent_path().c_str()); // fails unless it is empty
+        }
         ::close(descriptor_);
     }
 }

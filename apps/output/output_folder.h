@@ -6,8 +6,8 @@
 
 namespace fathom {
 
-// Creates the folder where it is missing. Throws BadInput when it is a file, or cannot be made.
-void makeOutputFolder(const std::filesystem::path& folder);
+// Creates the folder where it is missing; true = it was. Throws BadInput when it is a file or cannot be made.
+bool makeOutputFolder(const std::filesystem::path& folder);
 
 // Holds the folder for this process. The kernel ends the lock with the process, however it ends, so a lock
 // file that was left behind does not count.
@@ -18,10 +18,11 @@ public:
     explicit OutputLock(const std::filesystem::path& folder);
     OutputLock(OutputLock&& other) noexcept;
     OutputLock& operator=(OutputLock&&) = delete;
-    ~OutputLock(); // removes the lock file
+    ~OutputLock(); // removes the lock file, and the folder if it is new and still empty
 
 private:
     std::filesystem::path file_;
+    bool made_ = false; // the folder is new
     int descriptor_ = -1;
 };
 

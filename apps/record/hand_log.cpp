@@ -32,6 +32,10 @@ HandLog::~HandLog() {
     if (thread_.joinable()) {
         thread_.join();
     }
+    if (frames_ == 0) {
+        std::error_code ignored;
+        std::filesystem::remove(file_, ignored);
+    }
 }
 
 void HandLog::watch() noexcept {

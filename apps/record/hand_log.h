@@ -23,7 +23,7 @@ public:
     HandLog(std::unique_ptr<LiveHand> hand, const std::filesystem::path& file);
     HandLog(const HandLog&) = delete;
     HandLog& operator=(const HandLog&) = delete;
-    ~HandLog();
+    ~HandLog(); // without a frame it removes the file
 
     // Call for every recorded frame. captureTime [s] of CLOCK_MONOTONIC.
     void frame(double captureTime);

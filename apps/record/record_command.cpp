@@ -49,7 +49,7 @@ double copyFrames(Camera& camera, RecordingWriter& writer, HandLog* hand, double
 }
 
 // A live hand needs live frames: otherwise they have no common clock.
-std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, const Camera& camera) {
+std::unique_ptr<LiveHand> openHand(const RecordOptions& options, Scene scene, const Camera& camera) {
     if (options.handDevice.empty()) {
         return nullptr;
     }
@@ -57,8 +57,7 @@ std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, 
         throw BadInput("record", "--hand-device", camera.description(),
                        "a live camera, because the hand is live");
     }
-    auto hand = openLiveHand(options.handDevice, scene);
-    return std::make_unique<HandLog>(std::move(hand), std::filesystem::path(options.out) / "hand.csv");
+    return openLiveHand(options.handDevice, scene);
 }
 
 int runRecord(const RecordOptions& options) {
@@ -67,9 +66,13 @@ int runRecord(const RecordOptions& options) {
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source),
         Delivery::Every);
     const StopSignals signals;
+    std::unique_ptr<LiveHand> device = openHand(options, scene, *camera);
     const OutputLock lock(options.out);
     RecordingWriter writer(options.out, camera->info(), 2);
-    const std::unique_ptr<HandLog> hand = openHandLog(options, scene, *camera);
+    std::unique_ptr<HandLog> hand;
+    if (device) {
+        hand = std::make_unique<HandLog>(std::move(device), std::filesystem::path(options.out) / "hand.csv");
+    }
     double length = 0.0;
     std::string gone;
     try {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/rig/program_refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/eventually.h"
 
@@ -30,6 +31,31 @@ TEST_CASE("A recording that is ended by SIGINT is complete: every frame of its i
     const Replay replay = readReplay(stage / "out", run);
     CHECK(replay.summary.at("frames").at("count") == lines);
     CHECK(replay.summary.at("frames").at("skipped") == 0);
+}
+
+TEST_CASE("A record or convert that is refused or finds no frame leaves nothing, so it can be run again") {
+    const Stage stage;
+    stage.recording({bumpImage()});
+    stage.scene({});
+    const std::string scene = (stage / "scene.yaml").string(), rec = (stage / "rec").string(),
+                      out = (stage / "new").string();
+    const std::vector<std::string> record{"record", scene, "--source", rec, "--out", out},
+        convert{"convert", rec, "--out", out};
+    std::vector<std::string> withHand = record;
+    withHand.insert(withHand.end(), {"--hand-device", "falcon"});
+    checkRefusal(withHand, {"--hand-device", "a live camera"});
+    CHECK_FALSE(std::filesystem::exists(out));
+    std::filesystem::rename(stage / "rec/depth", stage / "depth");
+    for (const auto& command : {record, convert}) {
+        CHECK(runFathom(command).exitCode == 2);
+        CHECK_FALSE(std::filesystem::exists(out));
+    }
+    std::filesystem::rename(stage / "depth", stage / "rec/depth");
+    for (const auto& command : {record, convert}) {
+        const ProgramRun run = runFathom(command);
+        CHECK_MESSAGE(run.exitCode == 0, run.err);
+        std::filesystem::remove_all(out);
+    }
 }
 
 TEST_CASE("A lockstep replay and a conversion that are ended by SIGINT leave complete files and a warning") {
