@@ -4,8 +4,13 @@
 #include "engine/model/link_spheres.h"
 #include "engine/model/urdf_file.h"
 #include "engine/model/xml_text.h"
+#include "engine/types/error.h"
+#include "engine/types/output_file.h"
 #include "engine/types/read_file.h"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <vector>
 
@@ -57,9 +62,62 @@ fs::path nameIn(const fs::path& home, const fs::path& file) {
     return name.empty() || *name.begin() == ".." ? "" : name;
 }
 
+bool sameBytes(const fs::path& a, const fs::path& b) {
+    std::error_code missing;
+    if (!fs::is_regular_file(b, missing) || fs::file_size(a) != fs::file_size(b)) {
+        return false;
+    }
+    std::ifstream one(a, std::ios::binary), other(b, std::ios::binary);
+    using Bytes = std::istreambuf_iterator<char>;
+    return one && other && std::equal(Bytes(one), Bytes(), Bytes(other), Bytes());
+}
+
+[[noreturn]] void refuseInWay(const fs::path& path, const char* allowed) {
+    throw BadInput("--out", path.string(), "in the way of a copy of the scene's own, and not replaced",
+                   allowed);
+}
+
+// Creates the folder `to`/name, or only checks that it can be.
+void makeFolder(const fs::path& to, const fs::path& name, Copying how) {
+    fs::path path = to;
+    for (const fs::path& part : name) {
+        path /= part;
+        const fs::file_status there = fs::symlink_status(path);
+        if (fs::exists(there) && !fs::is_directory(there)) {
+            refuseInWay(path, "a folder, no link");
+        }
+    }
+    if (how == Copying::Do) {
+        fs::create_directories(path);
+    }
+}
+
 } // namespace
 
-std::string copySceneFiles(const Scene& scene, const fs::path& folder) {
+void copyFile(const fs::path& file, const fs::path& to, const fs::path& name, Copying how) {
+    const fs::path copy = to / name;
+    if (sameBytes(file, copy)) {
+        return;
+    }
+    if (fs::exists(fs::symlink_status(copy))) {
+        refuseInWay(copy, "a file with the same bytes, or none");
+    }
+    makeFolder(to, name.parent_path(), how);
+    if (how == Copying::Do) {
+        std::ifstream in(file, std::ios::binary);
+        OutputFile out(copy);
+        std::vector<char> bytes(size_t{1} << 20);
+        while (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())) || in.gcount() > 0) {
+            out.write(bytes.data(), static_cast<size_t>(in.gcount()));
+        }
+        if (!in.eof()) {
+            throw Error(file.string() + ": cannot be read");
+        }
+        out.commit();
+    }
+}
+
+std::string copySceneFiles(const Scene& scene, const fs::path& folder, Copying how) {
     const fs::path home = fs::absolute(scene.file).parent_path().lexically_normal();
     std::vector<fs::path> named{scene.tool.file};
     std::set<fs::path> outside; // folders with meshes
@@ -73,7 +131,7 @@ std::string copySceneFiles(const Scene& scene, const fs::path& folder) {
             }
         }
         if (!scene.arm->meshes.empty()) { // the scene requires the folder, also an empty one
-            fs::create_directories(folder / nameIn(home, scene.arm->meshes));
+            makeFolder(folder, nameIn(home, scene.arm->meshes), how);
         }
     }
     if (!scene.hand.builtIn) {
@@ -90,8 +148,7 @@ std::string copySceneFiles(const Scene& scene, const fs::path& folder) {
             left += (left.empty() ? "" : ", ") + file.string();
             continue;
         }
-        fs::create_directories((folder / name).parent_path());
-        fs::copy(file, folder / name, fs::copy_options::overwrite_existing);
+        copyFile(file, folder, name, how);
     }
     return left;
 }

@@ -92,15 +92,22 @@ std::string scalarAt(const YAML::Node& root, const std::vector<std::string>& key
 }
 
 // Copies what copySceneFiles() does not: files of the camera's options in the folder of the scene.
-void copyCameraFiles(const std::string& text, const fs::path& home, const fs::path& folder) {
+void copyCameraFiles(const std::string& text, const fs::path& home, const fs::path& folder, Copying how) {
     const YAML::Node root = YAML::Load(text);
     for (const char* kind : kSourceKinds) {
         for (const fs::path& file : filesBesideScene(scalarAt(root, {"camera", "source", kind}))) {
             if (fs::is_regular_file(home / file)) { // a missing one only matters where the camera is opened
-                fs::create_directories((folder / file).parent_path());
-                fs::copy(home / file, folder / file, fs::copy_options::overwrite_existing);
+                copyFile(home / file, folder, file, how);
             }
         }
+    }
+}
+
+void copyFiles(const Scene& scene, const fs::path& folder, Copying how) {
+    const fs::path home = fs::absolute(scene.file).parent_path();
+    if (!sameFolder(home, folder)) {
+        copySceneFiles(scene, folder, how);
+        copyCameraFiles(wholeText(scene.file), home, folder, how);
     }
 }
 
@@ -157,6 +164,7 @@ fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
         throw BadInput("tune", "--out", folder.string() + ", whose scene.yaml is not a result of tune",
                        "a folder of its own, or that of an earlier tune");
     }
+    copyFiles(scene, folder, Copying::Check);
     return file;
 }
 
@@ -166,9 +174,8 @@ fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::v
                    fresh = folder / "scene.new.yaml";
     const std::string text = withoutComments(wholeText(scene.file));
     std::vector<SceneValue> all = values;
+    copyFiles(scene, folder, Copying::Do);
     if (!sameFolder(home, folder)) {
-        copySceneFiles(scene, folder);
-        copyCameraFiles(text, home, folder);
         const std::vector<SceneValue> moved = movedPaths(text, home, folder);
         all.insert(all.end(), moved.begin(), moved.end());
     }

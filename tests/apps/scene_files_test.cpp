@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/scene_files.h"
 
+#include "engine/types/error.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -80,4 +81,37 @@ TEST_CASE("The files that an MJCF file includes are copied, those of included fi
     CHECK(copySceneFiles(scene, copy.path()) == "");
     CHECK(std::filesystem::exists(copy.path() / "parts/body.xml"));
     CHECK(std::filesystem::exists(copy.path() / "parts/more.xml"));
+}
+
+TEST_CASE("A copy replaces no other file and follows no link; a file with the same bytes stays") {
+    const ScratchFolder home, copy;
+    home.write("jaws/jaw.sph", "spheres");
+    Scene scene;
+    scene.file = home.path() / "scene.yaml";
+    scene.tool.file = home.path() / "jaws/jaw.sph";
+    const auto refused = [&](const std::string& name) {
+        for (const Copying how : {Copying::Check, Copying::Do}) {
+            CHECK_THROWS_WITH_AS(copySceneFiles(scene, copy.path(), how),
+                                 doctest::Contains((copy.path() / name).c_str()), BadInput);
+        }
+    };
+    copySceneFiles(scene, copy.path(), Copying::Check);
+    CHECK(copy.files() == 0);
+    copy.write("jaws/jaw.sph", "another");
+    refused("jaws/jaw.sph");
+    CHECK(copy.read("jaws/jaw.sph") == "another");
+    copy.write("jaws/jaw.sph", "spheres");
+    CHECK_NOTHROW(copySceneFiles(scene, copy.path()));
+    std::filesystem::remove(copy.path() / "jaws/jaw.sph");
+    copy.write("mine", "precious");
+    std::filesystem::create_symlink("../mine", copy.path() / "jaws/jaw.sph");
+    refused("jaws/jaw.sph");
+    CHECK(copy.read("mine") == "precious");
+    std::filesystem::remove(copy.path() / "jaws/jaw.sph");
+    std::filesystem::create_symlink(scene.tool.file, copy.path() / "jaws/jaw.sph");
+    CHECK_NOTHROW(copySceneFiles(scene, copy.path())); // the file itself
+    std::filesystem::remove_all(copy.path() / "jaws");
+    std::filesystem::create_directory_symlink(home.path(), copy.path() / "jaws");
+    refused("jaws");
+    CHECK_FALSE(std::filesystem::exists(home.path() / "jaw.sph"));
 }

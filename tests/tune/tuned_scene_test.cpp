@@ -138,6 +138,23 @@ TEST_CASE("A scene that no earlier run wrote is not replaced, nor a recording's 
     CHECK_THROWS_AS(tunedSceneFile(scene, out.path()), BadInput);
 }
 
+TEST_CASE("A file that is not the scene's own is named before anything is measured") {
+    const ScratchFolder home, out;
+    home.write("mine.yaml", "camera: {source: {recorded: 'rec,intrinsics=lens.json'}}\n"
+                            "fixtures: [{name: a, role: forbidden}]\ntool: {spheres: [[0, 0, 0, 0.01]]}\n"
+                            "hand: {path: path.csv}\n");
+    for (const char* name : {"path.csv", "lens.json"}) {
+        CAPTURE(name);
+        home.write(name, "of the scene");
+        out.write(name, "another");
+        CHECK_THROWS_WITH_AS(tunedSceneFile(loadScene(home / "mine.yaml"), out.path()),
+                             doctest::Contains((out / name).c_str()), BadInput);
+        CHECK(out.read(name) == "another");
+        out.write(name, "of the scene");
+    }
+    CHECK_NOTHROW(tunedSceneFile(loadScene(home / "mine.yaml"), out.path()));
+}
+
 TEST_CASE("Files after the commas of a camera's source are copied or named as seen from the tuned scene") {
     const ScratchFolder scratch;
     scratch.write("lens.json", "lens");
