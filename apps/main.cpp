@@ -44,13 +44,14 @@
 namespace {
 
 // A file that is opened while a standard stream is closed gets its number, and log lines are written to it.
-// So /dev/null takes these numbers.
+// So /dev/null takes these numbers. It cannot be written as standard output: a lost result is an error, as on
+// a full disk.
 void openStandardStreams() {
-    int file = 0;
-    do {
-        file = ::open("/dev/null", O_RDWR);
-    } while (file >= 0 && file <= STDERR_FILENO);
-    ::close(file);
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) { // the lowest free number is next
+        if (::fcntl(stream, F_GETFD) < 0) {
+            ::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR);
+        }
+    }
 }
 
 // Also `fathom help [SUBCOMMAND]`, as many programs have it.
@@ -141,7 +142,8 @@ void startLog() {
     spdlog::set_pattern("%l: %v");
 }
 
-// Reports a full disk under standard output. A reader that closed its pipe wants no more.
+// Reports a full disk under standard output, and one that is closed. A reader that closed its pipe wants no
+// more.
 int flushed(int result) {
     errno = 0;
     std::cout.flush();

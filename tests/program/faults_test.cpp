@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 using namespace fathom;
 
@@ -80,23 +81,36 @@ TEST_CASE("A truncated, missing or wrong frame in a good recording is skipped al
         2, {"8-bit", "16-bit grey"});
 }
 
-TEST_CASE("Where standard streams are closed, a warning is not written into results, which stay the same") {
+TEST_CASE(
+    "Where standard streams are closed, a warning is not written into results, which stay the same, and "
+    "a closed standard output is an error") {
     const Stage stage;
     stage.recording(std::vector<Image>(4, bumpImage()));
     std::filesystem::remove(stage / "rec/depth/000001.png"); // the cause of the warning
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
-    for (const std::string name : {"open", "closed"}) {
+    struct Case {
+        std::string name;
+        std::vector<int> closed;
+        int exitCode;
+    };
+    for (const Case& c :
+         {Case{"open", {}, 0}, Case{"error", {STDIN_FILENO, STDERR_FILENO}, 0},
+          Case{"output", {STDOUT_FILENO}, 1}, Case{"all", {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}, 1}}) {
+        CAPTURE(c.name);
         RunSetting streams;
-        streams.closed = name == "closed";
-        CHECK(runFathom(stage.command({}, name), streams).exitCode == 0);
-        CHECK(runFathom({"convert", (stage / "rec").string(), "--format", "mcap", "--out",
-                         (stage / name / "mcap").string()},
-                        streams)
-                  .exitCode == 0);
+        streams.closed = c.closed;
+        const std::string mcap = (stage / c.name / "mcap").string();
+        for (const auto& words : {stage.command({}, c.name),
+                                  {"convert", (stage / "rec").string(), "--format", "mcap", "--out", mcap}}) {
+            const ProgramRun run = runFathom(words, streams);
+            CHECK(run.exitCode == c.exitCode);
+            CHECK((run.err.find("standard output: cannot be written") != std::string::npos) ==
+                  (c.name == "output"));
+        }
+        CHECK(stage.read(c.name + "/haptics.csv") == stage.read("open/haptics.csv"));
+        CHECK(stage.read(c.name + "/mcap/recording.mcap") == stage.read("open/mcap/recording.mcap"));
+        CHECK(readFrames(stage / c.name / "frames.csv").size() == 3);
     }
-    CHECK(stage.read("closed/haptics.csv") == stage.read("open/haptics.csv"));
-    CHECK(stage.read("closed/mcap/recording.mcap") == stage.read("open/mcap/recording.mcap"));
-    CHECK(readFrames(stage / "closed/frames.csv").size() == 3);
 }
 
 TEST_CASE("A stamp that goes back, or an invalid line, skips its frame alone and is named") {

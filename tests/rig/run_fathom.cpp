@@ -86,7 +86,7 @@ public:
         const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
                            (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0) &&
                            (!setting.unprivileged || dropPrivileges());
-        for (int stream = 0; setting.closed && stream <= STDERR_FILENO; ++stream) {
+        for (const int stream : setting.closed) {
             ::close(stream);
         }
         if (ready) {

@@ -23,7 +23,7 @@ struct RunSetting {
     bool terminal = false;        // standard error is a pseudo-terminal instead of a pipe
     double timeLimit = 240.0;     // [s] then the child is killed
     std::filesystem::path folder; // working directory; empty = the test's own
-    bool closed = false;          // standard input, output and error are closed
+    std::vector<int> closed;      // standard streams that are closed, such as STDOUT_FILENO
 
     // Runs as user nobody if the test is root; no real-time priority, 64 KiB of locked memory.
     bool unprivileged = false;
