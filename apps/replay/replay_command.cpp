@@ -175,7 +175,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->check(numberIn(Range::between(1.0, 240.0)));
     command->add_flag(
         "--strict", options->strict,
-        "exit code 1 if the run had warnings: a class without points, skipped frames, no force");
+        "exit code 1 if the run had warnings: a class without points, skipped frames, no force, a signal");
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply for every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runReplay(*options, global); });
