@@ -72,6 +72,44 @@ bool sameBytes(const fs::path& a, const fs::path& b) {
     return one && other && std::equal(Bytes(one), Bytes(), Bytes(other), Bytes());
 }
 
+// Files that a scene names.
+struct SceneFiles {
+    fs::path home;                // folder of the scene file
+    std::vector<fs::path> beside; // in this folder, relative to it
+    std::string outside;          // list of the others, and of other folders with meshes
+};
+
+SceneFiles filesOf(const Scene& scene) {
+    SceneFiles files{fs::absolute(scene.file).parent_path().lexically_normal(), {}, {}};
+    std::vector<fs::path> named{scene.tool.file};
+    std::set<fs::path> outside; // folders with meshes
+    if (scene.arm) {
+        named.push_back(scene.arm->urdf);
+        for (const fs::path& file : filesOf(*scene.arm)) {
+            if (file.empty() || !nameIn(files.home, file).empty()) {
+                named.push_back(file);
+            } else {
+                outside.insert(file.parent_path().lexically_normal());
+            }
+        }
+    }
+    if (!scene.hand.builtIn) {
+        named.emplace_back(scene.hand.path);
+    }
+    named.insert(named.end(), outside.begin(), outside.end());
+    for (const fs::path& file : named) {
+        if (file.empty() || !fs::exists(file)) {
+            continue;
+        }
+        if (const fs::path name = nameIn(files.home, file); !name.empty()) {
+            files.beside.push_back(name);
+        } else {
+            files.outside += (files.outside.empty() ? "" : ", ") + file.string();
+        }
+    }
+    return files;
+}
+
 [[noreturn]] void refuseInWay(const fs::path& path, const char* allowed) {
     throw BadInput("--out", path.string(), "in the way of a copy of the scene's own, and not replaced",
                    allowed);
@@ -118,39 +156,18 @@ void copyFile(const fs::path& file, const fs::path& to, const fs::path& name, Co
 }
 
 std::string copySceneFiles(const Scene& scene, const fs::path& folder, Copying how) {
-    const fs::path home = fs::absolute(scene.file).parent_path().lexically_normal();
-    std::vector<fs::path> named{scene.tool.file};
-    std::set<fs::path> outside; // folders with meshes
-    if (scene.arm) {
-        named.push_back(scene.arm->urdf);
-        for (const fs::path& file : filesOf(*scene.arm)) {
-            if (file.empty() || !nameIn(home, file).empty()) {
-                named.push_back(file);
-            } else {
-                outside.insert(file.parent_path().lexically_normal());
-            }
-        }
-        if (!scene.arm->meshes.empty()) { // the scene requires the folder, also an empty one
-            makeFolder(folder, nameIn(home, scene.arm->meshes), how);
-        }
+    const SceneFiles files = filesOf(scene);
+    if (scene.arm && !scene.arm->meshes.empty()) { // the scene requires the folder, also an empty one
+        makeFolder(folder, nameIn(files.home, scene.arm->meshes), how);
     }
-    if (!scene.hand.builtIn) {
-        named.emplace_back(scene.hand.path);
+    for (const fs::path& name : files.beside) {
+        copyFile(files.home / name, folder, name, how);
     }
-    named.insert(named.end(), outside.begin(), outside.end());
-    std::string left;
-    for (const fs::path& file : named) {
-        if (file.empty() || !fs::exists(file)) {
-            continue;
-        }
-        const fs::path name = nameIn(home, file);
-        if (name.empty()) {
-            left += (left.empty() ? "" : ", ") + file.string();
-            continue;
-        }
-        copyFile(file, folder, name, how);
-    }
-    return left;
+    return files.outside;
+}
+
+std::vector<fs::path> filesBeside(const Scene& scene) {
+    return filesOf(scene).beside;
 }
 
 } // namespace fathom

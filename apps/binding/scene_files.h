@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -22,5 +23,8 @@ void copyFile(const std::filesystem::path& file, const std::filesystem::path& to
 // std::filesystem::filesystem_error, and BadInput when the arm's description cannot be read.
 std::string copySceneFiles(const Scene& scene, const std::filesystem::path& folder,
                            Copying how = Copying::Do);
+
+// The files that copySceneFiles() copies, as paths relative to the scene file. Throws as it does.
+std::vector<std::filesystem::path> filesBeside(const Scene& scene);
 
 } // namespace fathom

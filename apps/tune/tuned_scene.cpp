@@ -76,7 +76,7 @@ std::string wholeText(const fs::path& file) {
     return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
 }
 
-bool sameFolder(const fs::path& a, const fs::path& b) {
+bool sameFile(const fs::path& a, const fs::path& b) {
     std::error_code none;
     return fs::equivalent(a, b, none);
 }
@@ -91,23 +91,44 @@ std::string scalarAt(const YAML::Node& root, const std::vector<std::string>& key
     return node.IsScalar() ? node.Scalar() : "";
 }
 
-// Copies what copySceneFiles() does not: files of the camera's options in the folder of the scene.
-void copyCameraFiles(const std::string& text, const fs::path& home, const fs::path& folder, Copying how) {
-    const YAML::Node root = YAML::Load(text);
+// Files of the camera's options in the folder of the scene, which copySceneFiles() does not copy.
+std::vector<fs::path> cameraFiles(const Scene& scene) {
+    const YAML::Node root = YAML::Load(wholeText(scene.file));
+    const fs::path home = fs::absolute(scene.file).parent_path();
+    std::vector<fs::path> files;
     for (const char* kind : kSourceKinds) {
         for (const fs::path& file : filesBesideScene(scalarAt(root, {"camera", "source", kind}))) {
             if (fs::is_regular_file(home / file)) { // a missing one only matters where the camera is opened
-                copyFile(home / file, folder, file, how);
+                files.push_back(file);
             }
         }
     }
+    return files;
 }
 
 void copyFiles(const Scene& scene, const fs::path& folder, Copying how) {
     const fs::path home = fs::absolute(scene.file).parent_path();
-    if (!sameFolder(home, folder)) {
+    if (!sameFile(home, folder)) {
         copySceneFiles(scene, folder, how);
-        copyCameraFiles(wholeText(scene.file), home, folder, how);
+        for (const fs::path& file : cameraFiles(scene)) {
+            copyFile(home / file, folder, file, how);
+        }
+    }
+}
+
+// Results would replace such a file of the scene, or its copy.
+void refuseNamesOfResults(const Scene& scene, const fs::path& folder) {
+    const fs::path home = fs::absolute(scene.file).parent_path();
+    std::vector<fs::path> files = filesBeside(scene);
+    const std::vector<fs::path> more = cameraFiles(scene);
+    files.insert(files.end(), more.begin(), more.end());
+    for (const fs::path& file : files) {
+        for (const char* result : {"scene.yaml", "scene.new.yaml", "points.csv", "tune.png"}) {
+            if (*file.lexically_normal().begin() == result || sameFile(home / file, folder / result)) {
+                throw BadInput(scene.file, "file", file.string(),
+                               std::string("another name than that of a result of tune, ") + result);
+            }
+        }
     }
 }
 
@@ -156,7 +177,7 @@ std::vector<SceneValue> movedPaths(const std::string& text, const fs::path& home
 
 fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
     fs::path file = folder / "scene.yaml";
-    if (sameFolder(file, scene.file)) {
+    if (sameFile(file, scene.file)) {
         throw BadInput("tune", "--out", folder.string(),
                        "a folder without the scene itself, which is not replaced");
     }
@@ -164,6 +185,7 @@ fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
         throw BadInput("tune", "--out", folder.string() + ", whose scene.yaml is not a result of tune",
                        "a folder of its own, or that of an earlier tune");
     }
+    refuseNamesOfResults(scene, folder);
     copyFiles(scene, folder, Copying::Check);
     return file;
 }
@@ -175,7 +197,7 @@ fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::v
     const std::string text = withoutComments(wholeText(scene.file));
     std::vector<SceneValue> all = values;
     copyFiles(scene, folder, Copying::Do);
-    if (!sameFolder(home, folder)) {
+    if (!sameFile(home, folder)) {
         const std::vector<SceneValue> moved = movedPaths(text, home, folder);
         all.insert(all.end(), moved.begin(), moved.end());
     }

@@ -31,7 +31,8 @@ std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
                                       const std::filesystem::path& folder);
 
 // Name of the file. Throws BadInput when `folder` has a file of this name that is the scene itself, or that
-// no earlier run wrote, and when something is in the way of a file that writeTunedScene() copies there.
+// no earlier run wrote, when a file of the scene has the name of a result, and when something is in the way
+// of a file that writeTunedScene() copies there.
 std::filesystem::path tunedSceneFile(const Scene& scene, const std::filesystem::path& folder);
 
 } // namespace fathom::tune

@@ -155,6 +155,26 @@ TEST_CASE("A file that is not the scene's own is named before anything is measur
     CHECK_NOTHROW(tunedSceneFile(loadScene(home / "mine.yaml"), out.path()));
 }
 
+TEST_CASE("A file of the scene with the name of a result is rejected before anything is measured") {
+    const ScratchFolder home;
+    const auto checkRefused = [&](const char* name, const std::filesystem::path& out) {
+        CAPTURE(name);
+        home.write(name, "of the scene");
+        for (const std::string key : {"hand: {path: ", "camera: {source: {recorded: 'rec,intrinsics="}) {
+            const bool hand = key.starts_with("hand");
+            home.write("mine.yaml", kSmallestScene + key + name + (hand ? "}\n" : "'}}\n"));
+            CHECK_THROWS_WITH_AS(tunedSceneFile(loadScene(home / "mine.yaml"), out),
+                                 doctest::Contains("another name than that of a result of tune"), BadInput);
+        }
+        std::filesystem::remove(home / name);
+    };
+    for (const char* name : {"points.csv", "tune.png", "scene.new.yaml"}) {
+        checkRefused(name, home / "none");
+        checkRefused(name, home.path());
+    }
+    checkRefused("sub/tune.png", home / "sub"); // whose copy would be sub/sub/tune.png
+}
+
 TEST_CASE("Files after the commas of a camera's source are copied or named as seen from the tuned scene") {
     const ScratchFolder scratch;
     scratch.write("lens.json", "lens");
