@@ -88,7 +88,7 @@ std::string subtitleOf(const Facts& facts) {
 
 void writeStudy(const Study& study, const Facts& facts, const std::filesystem::path& folder) {
     writeStudyCsv(study, folder / (study.name + ".csv"));
-    writeStudyPlot(study, subtitleOf(facts), folder / (study.name + ".png"));
+    studyPlot(study, subtitleOf(facts)).writePng(folder / (study.name + ".png"));
     std::cout << study.name << ": " << study.rows.size() << " settings, verified: " << study.verified << "\n"
               << "  measured: " << study.served << "\n";
     for (const std::string& finding : study.findings) {

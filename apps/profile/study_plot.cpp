@@ -27,9 +27,9 @@ PanelGrid panelGrid(size_t panels) {
     return {(count + down - 1) / down, down};
 }
 
-void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file) {
+Image studyPlot(const Study& study, const std::string& subtitle) {
     const PanelGrid grid = panelGrid(study.panels.size());
-    const Image image(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
+    Image image(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
     image.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
     image.text(24.0, 60.0,
                subtitle + (study.labels.empty() ? "" : " · " + study.labels) +
@@ -41,7 +41,7 @@ void writeStudyPlot(const Study& study, const std::string& subtitle, const std::
         paintPanel(image, study.panels[i], colours, (k % grid.across) * kPanelWidth,
                    kHead + row * kPanelHeight);
     }
-    image.writePng(file);
+    return image;
 }
 
 } // namespace fathom::profile

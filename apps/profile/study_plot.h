@@ -8,8 +8,8 @@
 
 namespace fathom::profile {
 
-// subtitle: one line under the title with the device and what was verified. Throws Error that names the file.
-void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file);
+// subtitle: one line under the title with the device and what was verified.
+Image studyPlot(const Study& study, const std::string& subtitle);
 
 // Arrangement of the panels, row by row in one row or two.
 struct PanelGrid {

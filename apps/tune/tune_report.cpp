@@ -96,10 +96,9 @@ PlotPanel panelOf(const TuneResult& result, const std::string& title, double Sco
 
 } // namespace
 
-void writePoints(const TuneResult& result, const Request& request, const std::filesystem::path& file) {
+void writePoints(const TuneResult& result, const Request& request, OutputFile& out) {
     const std::vector<Score> scores = result.scores();
     const std::vector<bool> front = frontOf(scores);
-    OutputFile out(file);
     out.write(kHead);
     CsvRow row;
     for (size_t i = 0; i < result.points.size(); ++i) {
@@ -117,11 +116,10 @@ void writePoints(const TuneResult& result, const Request& request, const std::fi
         row.add(p.timeScale);
         out.write(row.end());
     }
-    out.commit();
 }
 
-void writeCurve(const TuneResult& result, const Request& request, const std::string& title,
-                const std::string& subtitle, const std::filesystem::path& file) {
+Image curveOf(const TuneResult& result, const Request& request, const std::string& title,
+              const std::string& subtitle) {
     profile::Study study;
     study.title = title;
     PlotPanel error = panelOf(result, "where the surface is felt", &Score::error);
@@ -132,7 +130,7 @@ void writeCurve(const TuneResult& result, const Request& request, const std::str
     ripple.yLabel = "force in 10 to 35 Hz at 1000 N/m [N]";
     ripple.ringed = "chosen";
     study.panels = {std::move(error), std::move(ripple)};
-    writeStudyPlot(study, subtitle, file);
+    return studyPlot(study, subtitle);
 }
 
 } // namespace fathom::tune

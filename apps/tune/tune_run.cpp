@@ -108,23 +108,7 @@ public:
                           << ": " << trial.skipped << "\n";
             }
         }
-        const fs::path out(settings_.out);
-        fs::remove(old_); // an older scene must not outlive a run that finds none
-        writePoints(result, settings_.request, out / "points.csv");
-        const std::optional<size_t> chosen = result.choice.point;
-        writeCurve(result, settings_.request,
-                   "Tuning of " + fs::path(settings_.scene).filename().string() + ": " +
-                       settings_.request.text(),
-                   source_.camera + " · " + device_.facts().name + " · " +
-                       (chosen ? "chosen: " + wordsOf(result.points[*chosen].setting) : "no point meets it"),
-                   out / "tune.png");
-        if (!chosen) {
-            std::cerr << "fathom: tune: " << noneMeets(result, settings_.request) << "\n";
-            std::cout << "written   " << (out / "points.csv").string() << ", tune.png; no scene\n";
-            return 1;
-        }
-        finish(result, result.points[*chosen]);
-        return 0;
+        return write(result);
     }
 
 private:
@@ -160,7 +144,30 @@ private:
         return options;
     }
 
-    void finish(const TuneResult& result, const TunePoint& chosen) const {
+    int write(const TuneResult& result) const {
+        const fs::path out(settings_.out);
+        const std::optional<size_t> chosen = result.choice.point;
+        OutputFile points(out / "points.csv"), curve(out / "tune.png");
+        writePoints(result, settings_.request, points);
+        curveOf(result, settings_.request,
+                "Tuning of " + fs::path(settings_.scene).filename().string() + ": " +
+                    settings_.request.text(),
+                source_.camera + " · " + device_.facts().name + " · " +
+                    (chosen ? "chosen: " + wordsOf(result.points[*chosen].setting) : "no point meets it"))
+            .writePng(curve);
+        OutputFile* const files[] = {&points, &curve};
+        if (!chosen) {
+            commitWithoutScene(files, old_); // an older scene must not outlive a run that finds none
+            std::cerr << "fathom: tune: " << noneMeets(result, settings_.request) << "\n";
+            std::cout << "written   " << points.path().string() << ", tune.png; no scene\n";
+            return 1;
+        }
+        finish(result, result.points[*chosen], files);
+        return 0;
+    }
+
+    void finish(const TuneResult& result, const TunePoint& chosen,
+                std::span<OutputFile* const> others) const {
         const Plan plan = makePlan(sceneWith(scene_, chosen.setting), source_.frames.camera,
                                    static_cast<uint32_t>(tool_.leafCount()), device_.facts());
         std::string head =
@@ -174,8 +181,8 @@ private:
                 head += "\n" + reasonOf(result, trial, chosen);
             }
         }
-        const fs::path file =
-            writeTunedScene(scene_, chosen.setting, chosenValues(result, chosen), head, settings_.out);
+        const fs::path file = writeTunedScene(scene_, chosen.setting, chosenValues(result, chosen), head,
+                                              settings_.out, others);
         std::cout << "chosen    " << wordsOf(chosen.setting) << "\n          " << valuesOf(chosen.score)
                   << "; as written " << valuesOf(result.points.front().score) << "\nstability "
                   << stabilityOf(chosen) << "\nleft out  " << leftOut(plan) << "\nwritten   " << file.string()

@@ -190,8 +190,19 @@ fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
     return file;
 }
 
+void commitWithoutScene(std::span<OutputFile* const> others, const fs::path& scene) {
+    for (OutputFile* file : others) {
+        file->complete();
+    }
+    fs::remove(scene);
+    for (OutputFile* file : others) {
+        file->commit();
+    }
+}
+
 fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::vector<SceneValue>& values,
-                         const std::string& head, const fs::path& folder) {
+                         const std::string& head, const fs::path& folder,
+                         std::span<OutputFile* const> others) {
     const fs::path file = tunedSceneFile(scene, folder), home = fs::absolute(scene.file).parent_path(),
                    fresh = folder / "scene.new.yaml";
     const std::string text = withoutComments(wholeText(scene.file));
@@ -208,6 +219,7 @@ fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::v
         if (!(settingOf(loadScene(fresh)) == chosen)) {
             throw Error(fresh.string() + ": the settings read back differ from the chosen ones");
         }
+        commitWithoutScene(others, file);
         fs::rename(fresh, file);
     } catch (...) {
         std::error_code ignored;

@@ -4,8 +4,10 @@
 
 #include "apps/tune/scene_text.h"
 #include "apps/tune/tuner.h"
+#include "engine/types/output_file.h"
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,10 +27,16 @@ inline constexpr const char* kWrittenBy = "written by 'fathom tune'";
 
 // Writes `folder`/scene.yaml: the text of the scene with these values, and `head`, which begins with
 // kWrittenBy, as comment at the top. Copies the files in its folder that it names. Replaces an older file
-// only when the new one loads with the chosen setting. Throws BadInput or Error.
+// only when the new one loads with the chosen setting; just before, it commits `others` without a scene.
+// Throws BadInput or Error.
 std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
                                       const std::vector<SceneValue>& values, const std::string& head,
-                                      const std::filesystem::path& folder);
+                                      const std::filesystem::path& folder,
+                                      std::span<OutputFile* const> others = {});
+
+// Commits the other results. Removes an older `scene` first, which must not be beside newer ones, but only
+// when all are complete, so that a full disk leaves all as they were.
+void commitWithoutScene(std::span<OutputFile* const> others, const std::filesystem::path& scene);
 
 // Name of the file. Throws BadInput when `folder` has a file of this name that is the scene itself, or that
 // no earlier run wrote, when a file of the scene has the name of a result, and when something is in the way

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom tune` on a small recording: its files, the scene that replay loads, and what it rejects.
+#include "tests/rig/file_size_limit.h"
 #include "tests/rig/program_refusal.h"
 #include "tests/support/eventually.h"
 
 #include <csignal>
 #include <doctest/doctest.h>
+#include <map>
 
 using namespace fathom;
 
@@ -96,6 +98,30 @@ TEST_CASE(
         {"tune", (stage / "scene.yaml").string(), "--error", "1", "--out", (stage / "proj").string()},
         {"--out", "not a result of tune"});
     CHECK(stage.read("proj/scene.yaml") == "mine");
+}
+
+TEST_CASE("tune on a full disk leaves every file of an earlier run unchanged") {
+    const Stage stage;
+    stillRecording(stage, 10);
+    scene(stage);
+    const std::map<std::string, std::string> before{
+        {"scene.yaml", "# tune: written by 'fathom tune' 1.0\nold"},
+        {"points.csv", "old points"},
+        {"tune.png", "old curve"}};
+    for (const char* limit : {"50", "0.0001"}) { // [mm] with a chosen point, and without
+        CAPTURE(limit);
+        for (const auto& [name, text] : before) {
+            stage.write("tuned/" + name, text);
+        }
+        const FileSizeLimit small(8192); // the points are fewer bytes, the image more
+        const ProgramRun run = runFathom(command(stage, {"--error", limit, "--frames", "8", "--limit", "1"}));
+        CHECK(run.exitCode == 1);
+        CHECK_MESSAGE(has(run.err, (stage / "tuned/tune.png").string() + ": cannot"), run.err);
+        for (const auto& [name, text] : before) {
+            CAPTURE(name);
+            CHECK(stage.read("tuned/" + name) == text);
+        }
+    }
 }
 
 TEST_CASE("tune that is ended by SIGINT writes its points and the best of them; without any, the old result "
