@@ -74,10 +74,14 @@ std::string whyTaken(const fs::path& folder) {
     }
     for (const char* name : {"depth", "rgb"}) {
         const fs::path images = folder / name;
-        if (fs::is_symlink(images)) {
+        const fs::file_status status = fs::symlink_status(images, failed);
+        if (fs::is_symlink(status)) {
             return std::string(name) + " is a symbolic link";
         }
-        if (fs::is_directory(images, failed) && !fs::is_empty(images, failed)) {
+        if (fs::exists(status) && !fs::is_directory(status)) {
+            return std::string(name) + " is not a folder";
+        }
+        if (fs::is_directory(status) && !fs::is_empty(images, failed)) {
             return std::string("has files in ") + name + "/";
         }
     }
@@ -88,11 +92,12 @@ const fs::path& freshFolder(const fs::path& folder) {
     if (const std::string why = whyTaken(folder); !why.empty()) {
         throw BadInput("--out", folder.string(), why, "a folder without a recording");
     }
-    std::error_code failed;
-    fs::create_directories(folder / "depth", failed);
-    fs::create_directories(folder / "rgb", failed);
-    if (failed) {
-        throw Error(folder.string() + ": cannot be written (" + failed.message() + ")");
+    for (const char* name : {"depth", "rgb"}) {
+        std::error_code failed;
+        fs::create_directories(folder / name, failed);
+        if (failed) {
+            throw Error(folder.string() + ": cannot be written (" + failed.message() + ")");
+        }
     }
     return folder;
 }

@@ -26,8 +26,8 @@ class RecordingWriter {
 public:
     static constexpr size_t kWaiting = 90; // frames that may wait to be encoded: 3 s at 30 Hz
 
-    // Creates the folder; rejects one with a recording of any layout, or with files in depth/ or rgb/
-    // (BadInput): it may be the source. Throws Error when it cannot be written. threads: number of encoders.
+    // Creates the folder; rejects one with a recording of any layout, with files in depth/ or rgb/, or with
+    // something else under these names (BadInput): it may be the source. Throws Error when it cannot be written. threads: number of encoders.
     RecordingWriter(const std::filesystem::path& folder, const CameraInfo& camera, unsigned threads);
     // As finish(), but ignores failures.
     ~RecordingWriter();

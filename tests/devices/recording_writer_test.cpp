@@ -161,6 +161,22 @@ TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds f
     }
 }
 
+TEST_CASE("A file or a link named depth or rgb is kept, and nothing is written next to it") {
+    for (const char* name : {"depth", "rgb"}) {
+        for (const bool link : {false, true}) {
+            CAPTURE(name);
+            const TemporaryFolder folder;
+            folder.write(link ? "target" : name, "mine");
+            if (link) {
+                std::filesystem::create_symlink("target", folder.path() / name);
+            }
+            CHECK_THROWS_AS(RecordingWriter(folder.path(), someCamera(true), 1), BadInput);
+            CHECK(folder.read(name) == "mine");
+            CHECK(folder.files() == (link ? 2 : 1));
+        }
+    }
+}
+
 TEST_CASE("Frames of one stamp are written so that all are read again, with their pose") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
