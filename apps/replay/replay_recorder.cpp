@@ -20,6 +20,8 @@ namespace fathom {
 
 namespace {
 
+constexpr const char *kTracesFile = "traces.png", *kOverlayFile = "overlay.png",
+                     *kSummaryFile = "summary.json";
 constexpr double kMomentMargin = 1.05; // a rising force copies the frame once per 5 %
 
 // [s] since the kernel started this process, to 10 ms. Empty if /proc does not say.
@@ -70,6 +72,9 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, co
     , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
     , watch_(scene, source)
     , edits_(edits) {
+    for (const char* name : {kTracesFile, kOverlayFile, kSummaryFile}) {
+        OutputFile{out_ / name}; // fails now, not after the run
+    }
     takeFixtures(scene.fixtures);
 }
 
@@ -218,7 +223,7 @@ void ReplayRecorder::writeImages(const Ending& ending, OutputFile& tracesFile,
 }
 
 ReplaySummary ReplayRecorder::finish(const Ending& ending) {
-    OutputFile traces(out_ / "traces.png"), overlay(out_ / "overlay.png"), text(out_ / "summary.json");
+    OutputFile traces(out_ / kTracesFile), overlay(out_ / kOverlayFile), text(out_ / kSummaryFile);
     writeImages(ending, traces, overlay);
     const ReplaySummary summary = summarise(ending);
     text.write(toJson(summary));

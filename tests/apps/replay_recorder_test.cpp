@@ -56,6 +56,18 @@ TEST_CASE("A replay whose images cannot be written leaves every file of the run 
     }
 }
 
+TEST_CASE("A replay is rejected before it runs if one of its files cannot be written") {
+    for (const char* name : {"haptics.csv", "frames.csv", "traces.png", "overlay.png", "summary.json"}) {
+        CAPTURE(name);
+        const ScratchFolder out;
+        std::filesystem::create_directory(out / name);
+        const Scene scene;
+        CHECK_THROWS_WITH_AS(ReplayRecorder(out.path(), scene, {CameraInfo{}, ""}, {}, false),
+                             doctest::Contains((out / name).c_str()), Error);
+        CHECK(out.files() == 1);
+    }
+}
+
 TEST_CASE(
     "A replay reports targets by their class when an edit adds guidance classes, and when one removes them") {
     const ScratchFolder recording, out;
