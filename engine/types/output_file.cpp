@@ -134,8 +134,8 @@ void commitTogether(std::span<OutputFile* const> files) {
     for (OutputFile* file : files) {
         file->complete();
     }
-    if (!files.empty()) {
-        ::unlink(files.back()->path().c_str());
+    if (!files.empty() && ::unlink(files.back()->path().c_str()) != 0 && errno != ENOENT) {
+        throw Error(files.back()->path().string() + ": cannot replace: " + std::strerror(errno));
     }
     for (OutputFile* file : files) {
         file->commit();

@@ -50,7 +50,7 @@ private:
 };
 
 // Commits files that belong together: all are complete before the first one gets its name. The last file
-// marks a complete set: its older version is removed before.
+// marks a complete set: its older version is removed before. If that fails, no file is replaced.
 void commitTogether(std::span<OutputFile* const> files);
 
 } // namespace fathom

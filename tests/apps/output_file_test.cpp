@@ -124,6 +124,21 @@ TEST_CASE("Files that belong together are replaced all or not at all") {
     CHECK(folder.files() == 2);
 }
 
+TEST_CASE(
+    "Files that belong together are not replaced if the old version of the last one cannot be removed") {
+    const ScratchFolder folder;
+    put(folder.path() / "a.csv", "old");
+    {
+        OutputFile first(folder.path() / "a.csv"), last(folder.path() / "b.json");
+        first.write("new");
+        std::filesystem::create_directory(folder / "b.json"); // which unlink() refuses
+        OutputFile* const files[] = {&first, &last};
+        CHECK_THROWS_WITH_AS(commitTogether(files), doctest::Contains("b.json: cannot replace"), Error);
+    }
+    CHECK(textOf(folder.path() / "a.csv") == "old");
+    CHECK(folder.files() == 2);
+}
+
 TEST_CASE("A file that was read is not replaced, under its own name or by a link") {
     const ScratchFolder folder;
     put(folder.path() / "in.txt", "input");
