@@ -47,6 +47,9 @@ namespace {
 std::string savedText(const Recorder& recorder, const std::string& folder) {
     const std::string failure = recorder.failure();
     const uint64_t lost = recorder.lost();
+    if (recorder.frames() == 0) {
+        return "no recording saved: " + (failure.empty() ? "no image has come" : failure);
+    }
     return "saved: " + std::to_string(recorder.frames()) + " frames recorded in " + folder + ", " +
            clockText(recorder.seconds()) + ", " + byteText(recorder.bytes()) +
            (lost > 0 ? ", " + std::to_string(lost) + " skipped: the disk was too slow" : "") +

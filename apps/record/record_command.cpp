@@ -60,6 +60,17 @@ std::unique_ptr<LiveHand> openHand(const RecordOptions& options, Scene scene, co
     return openLiveHand(options.handDevice, scene);
 }
 
+void printRecorded(const RecordOptions& options, const Camera& camera, const HandLog* hand, uint32_t frames,
+                   double length) {
+    if (hand != nullptr) {
+        std::cout << "hand         " << hand->samples() << " readings of " << hand->hand().description()
+                  << " in hand.csv\n";
+    }
+    std::cout << std::setprecision(4) << "recorded     " << frames << " frames in " << length << " s, "
+              << camera.skipped() << " skipped, " << camera.lost() << " lost\n"
+              << "from         " << camera.description() << "\nwritten to   " << options.out << "\n";
+}
+
 int runRecord(const RecordOptions& options) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
@@ -83,12 +94,10 @@ int runRecord(const RecordOptions& options) {
     writer.finish();
     if (hand) {
         hand->finish();
-        std::cout << "hand         " << hand->samples() << " readings of " << hand->hand().description()
-                  << " in hand.csv\n";
     }
-    std::cout << std::setprecision(4) << "recorded     " << writer.frames() << " frames in " << length
-              << " s, " << camera->skipped() << " skipped, " << camera->lost() << " lost\n"
-              << "from         " << camera->description() << "\nwritten to   " << options.out << "\n";
+    if (writer.frames() > 0) {
+        printRecorded(options, *camera, hand.get(), writer.frames(), length);
+    }
     if (!gone.empty()) {
         throw DeviceLost(gone);
     }
