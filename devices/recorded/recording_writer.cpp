@@ -107,8 +107,13 @@ const fs::path& freshFolder(const fs::path& folder) {
 RecordingWriter::RecordingWriter(const fs::path& folder, const CameraInfo& camera, unsigned threads)
     : folder_(freshFolder(folder))
     , camera_(camera) {
-    writeIntrinsics(folder / "intrinsics.json", camera);
-    index_.open(folder / (camera.hasColour ? "associations.txt" : "depth.txt"));
+    try {
+        index_.open(folder / (camera.hasColour ? "associations.txt" : "depth.txt"));
+        writeIntrinsics(folder / "intrinsics.json", camera);
+    } catch (...) {
+        removeFiles();
+        throw;
+    }
     for (unsigned i = 0; i < std::max(1u, threads); ++i) {
         threads_.emplace_back([this] { encode(); });
     }
@@ -231,16 +236,20 @@ void RecordingWriter::close() noexcept {
     work_.notify_all();
 }
 
+void RecordingWriter::removeFiles() noexcept {
+    std::error_code ignored;
+    for (const char* name : {"intrinsics.json", "associations.txt", "depth.txt", "depth", "rgb"}) {
+        fs::remove(folder_ / name, ignored); // not a folder with files
+    }
+}
+
 void RecordingWriter::end() noexcept {
     close();
     for (std::thread& thread : threads_) {
         thread.join();
     }
     if (added_ == 0 && !threads_.empty()) { // once
-        std::error_code ignored;
-        for (const char* name : {"intrinsics.json", "associations.txt", "depth.txt", "depth", "rgb"}) {
-            fs::remove(folder_ / name, ignored); // not a folder with files
-        }
+        removeFiles();
     }
     threads_.clear();
 }

@@ -27,7 +27,8 @@ public:
     static constexpr size_t kWaiting = 90; // frames that may wait to be encoded: 3 s at 30 Hz
 
     // Creates the folder; rejects one with a recording of any layout, with files in depth/ or rgb/, or with
-    // something else under these names (BadInput): it may be the source. Throws Error when it cannot be written. threads: number of encoders.
+    // something else under these names (BadInput): it may be the source. Throws Error when it cannot be
+    // written, and leaves no file then. threads: number of encoders.
     RecordingWriter(const std::filesystem::path& folder, const CameraInfo& camera, unsigned threads);
     // As finish(), but ignores failures.
     ~RecordingWriter();
@@ -48,8 +49,8 @@ public:
     void close() noexcept;
     // True when nothing is queued or being written. Any thread.
     bool written() const;
-    // Waits for all images. Without a frame it removes its files, so that the folder can be used again.
-    // Rethrows an encoder's exception.
+    // Waits for all images. Without a frame it removes its files, and depth/ and rgb/, so that the folder can
+    // be used again. Rethrows an encoder's exception.
     void finish();
 
     uint32_t frames() const { return added_; }
@@ -70,6 +71,7 @@ private:
     void done(const Job& job);
     void writePose(const PoseLine& pose);
     void end() noexcept;
+    void removeFiles() noexcept; // of a recording without frames
 
     std::filesystem::path folder_;
     CameraInfo camera_;

@@ -5,6 +5,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/rig/file_size_limit.h"
 #include "tests/support/eventually.h"
 
 #include <algorithm>
@@ -130,7 +131,7 @@ TEST_CASE("A folder with a recording is not overwritten, and an unwritable one i
     CHECK_THROWS_AS(RecordingWriter("/proc/rec", someCamera(true), 1), Error);
 }
 
-TEST_CASE("A writer without frames removes what it made and nothing else, so that the folder can be used") {
+TEST_CASE("A writer without frames removes its files and image folders, so that the folder can be used") {
     const TemporaryFolder folder;
     folder.write("notes.txt", "mine");
     for (const bool colour : {true, false}) {
@@ -144,6 +145,16 @@ TEST_CASE("A writer without frames removes what it made and nothing else, so tha
         CHECK(folder.read("notes.txt") == "mine");
         CHECK(std::ranges::distance(std::filesystem::directory_iterator(folder.path())) == 1);
     }
+}
+
+TEST_CASE("A writer that cannot write its first files leaves none of them") {
+    const TemporaryFolder folder;
+    {
+        const FileSizeLimit small(3); // the empty index, but no intrinsics
+        CHECK_THROWS_AS(RecordingWriter(folder.path(), someCamera(true), 1), Error);
+    }
+    CHECK(folder.files() == 0);
+    CHECK_NOTHROW(RecordingWriter(folder.path(), someCamera(true), 1));
 }
 
 TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds files, is never written to") {
