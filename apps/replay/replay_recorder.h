@@ -24,7 +24,7 @@
 namespace fathom {
 
 // One thread. finish() makes the files appear; after an exception before that, files of an earlier run are
-// unchanged.
+// unchanged, except fixtures/ and fault files (prepareReplayFolder()).
 class ReplayRecorder {
 public:
     // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
