@@ -105,10 +105,10 @@ private:
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
-    double boundingRadius_;    // [m]
+    double boundingRadius_;             // [m]
     double stepCap_, escape_, catchUp_; // [m] per solve, per tick, per tick
-    double mostTravel_;        // [m] per tick, of any leaf
-    double friction_;          // mu
+    double mostTravel_;                 // [m] per tick, of any leaf
+    double friction_;                   // mu
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;
