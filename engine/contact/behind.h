@@ -32,7 +32,7 @@ struct PatchBits {
 // before, moved through free space or is hidden. It is occluded, not behind. So is a leaf behind something
 // that appears more than R + r and the query's reach in front of it, because a surface that the leaf was in
 // front of moves less between two frames. Nor does a pixel flag a leaf if the set has no sphere there, as
-// where the filter rejected its point.
+// where the filter rejected its point; it may lengthen the way out of a leaf that is flagged already.
 //
 // The flag stays until the view to the leaf is free, or until the leaf is clear in front: R + r before the
 // surface and not overlapping any sphere (noise puts some spheres before their pixel's depth). Where R + r is

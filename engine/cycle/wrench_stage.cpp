@@ -75,7 +75,7 @@ void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
 }
 
 // Acts along the reaction only: a hand that moves freely along a region is not braked. It brakes the hand
-// against the ground, not against the tool, which new data may move by 1 mm in a tick.
+// against the ground, not against the tool, which new data may move by 2 mm in a tick.
 Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) noexcept {
     const Springs& springs = input.springs;
     Wrench wrench;

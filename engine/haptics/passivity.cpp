@@ -119,20 +119,20 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     given_ -= fromHand;
     rememberCredit(credit);
     debt_ = std::max(debt_ + generatedNow - damped, -recent_);
-    settle(tick, generatedNow, ramped);
+    settle(tick, generatedNow, fromHand);
 }
 
 // After the debt of a tick is known. What a fade took pays the debt first, and only the rest is the hand's.
-void PassivityController::settle(const PassivityStep& tick, double generated, double ramped) noexcept {
-    if (ramped < 0.0) {
-        const double paid = std::min(-ramped, std::max(0.0, debt_));
+void PassivityController::settle(const PassivityStep& tick, double generated, double fromHand) noexcept {
+    if (fromHand < 0.0) {
+        const double paid = std::min(-fromHand, std::max(0.0, debt_));
         debt_ -= paid;
         given_ -= paid;
     }
     given_ = given_ > 0.0 ? std::min(given_, heldBack(tick)) : 0.0;
     const double excess = std::max(0.0, debt_ - stored_), kept = std::exp(-tick.elapsed / kForget);
     debt_ -= (1.0 - kept) * excess;
-    const bool paced = tick.appears || ramped > 0.0;
+    const bool paced = tick.appears || fromHand > 0.0;
     dataDebt_ =
         std::clamp((excess > 0.0 ? kept : 1.0) * (dataDebt_ + (paced ? std::max(0.0, generated) : 0.0)), 0.0,
                    std::max(0.0, debt_));

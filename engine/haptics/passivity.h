@@ -111,7 +111,7 @@ private:
     void begin(const PassivityStep& tick) noexcept;
     void rest(const PassivityStep& tick) noexcept;
     void observe(const PassivityStep& tick) noexcept;
-    void settle(const PassivityStep& tick, double generated, double ramped) noexcept;
+    void settle(const PassivityStep& tick, double generated, double fromHand) noexcept;
     void rememberCredit(double credit) noexcept;
     Wrench actuated(const PassivityStep& tick, const dvec3& moved, const dvec3& turned) const noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;

@@ -155,6 +155,16 @@ TEST_CASE("Something that appears farther in front of a leaf than R + r and the 
     }
 }
 
+TEST_CASE("What is far in front of a leaf flags it neither where a region is beside the leaf") {
+    Watch watch;
+    watch(wallAt(0.6, 1), dvec3(0, 0, 0.5));
+    HostFixtures fish = wallAt(0.6, 2);
+    fish.spheres.add({0.045, 0, 0.49}, 0.03);
+    std::fill(fish.depth.begin(), fish.depth.end(), uint16_t{2500});
+    CHECK(watch(fish, dvec3(0, 0, 0.5)).empty());
+    CHECK(watch.set.size() == 1);
+}
+
 TEST_CASE("A pixel whose point was rejected, as of marine snow, flags no leaf") {
     for (const double wall : {0.6, 0.555}) { // out of reach, and in it
         Watch watch;

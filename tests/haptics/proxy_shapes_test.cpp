@@ -224,6 +224,25 @@ TEST_CASE("A surface that jumps past the tool moves it out on the camera's side,
     }
 }
 
+TEST_CASE("Between oblique surfaces that new data puts over it a tool escapes at no more than 2 m/s") {
+    for (const double period : {0.001, 0.00025}) {
+        HostFixtures wedge = emptySet(1);
+        wedge.spheres.add({0.03, 0, 0}, 0.04);
+        wedge.spheres.add({-0.03, 0, 0}, 0.04);
+        ProxyOptions options;
+        options.period = period;
+        ProxyRig rig(ballTool(0.01), wedge, at(dvec3(0, 0, 0.005)), options);
+        double last = 0.005, fastest = 0.0;
+        for (int tick = 0; tick < 200; ++tick) {
+            const double z = rig.step(at(dvec3(0, 0, 0.005))).pose.position.z;
+            fastest = std::max(fastest, (z - last) / period);
+            last = z;
+        }
+        CHECK(fastest > 1.5);
+        CHECK(fastest < 2.0 + 1e-6);
+    }
+}
+
 TEST_CASE("A surface that appears more than R + r and the reach in front of the tool leaves it where it is") {
     for (const double noise : {0.0, 0.0005}) {
         const dvec3 start(0.002, 0.001, 0.445);
