@@ -6,6 +6,8 @@
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
+#include <string>
+#include <vector>
 #include <yaml-cpp/yaml.h>
 
 using namespace fathom;
@@ -157,12 +159,15 @@ TEST_CASE("A file that is not the scene's own is named before anything is measur
 
 TEST_CASE("A file of the scene with the name of a result is rejected before anything is measured") {
     const ScratchFolder home;
-    const auto checkRefused = [&](const char* name, const std::filesystem::path& out) {
+    const auto checkRefused = [&](const std::string& name, const std::filesystem::path& out) {
         CAPTURE(name);
         home.write(name, "of the scene");
-        for (const std::string key : {"hand: {path: ", "camera: {source: {recorded: 'rec,intrinsics="}) {
-            const bool hand = key.starts_with("hand");
-            home.write("mine.yaml", kSmallestScene + key + name + (hand ? "}\n" : "'}}\n"));
+        std::vector<std::string> scenes{"camera: {source: {recorded: 'rec,intrinsics=" + name + "'}}\n"};
+        if (name.ends_with(".csv")) {
+            scenes.push_back("hand: {path: " + name + "}\n");
+        }
+        for (const std::string& text : scenes) {
+            home.write("mine.yaml", kSmallestScene + text);
             CHECK_THROWS_WITH_AS(tunedSceneFile(loadScene(home / "mine.yaml"), out),
                                  doctest::Contains("another name than that of a result of tune"), BadInput);
         }
