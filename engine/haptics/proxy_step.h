@@ -12,8 +12,8 @@ namespace fathom {
 
 // Motion options of a proxy, fixed at construction.
 struct ProxyOptions {
-    // [m/s] Where new data overlaps leaves, each pair asks for this. Oblique pairs together move a free tool
-    // at up to twice this, and by at most the step cap in a tick.
+    // [m/s] Where new data overlaps leaves, each pair asks for this. Oblique pairs together move the tool
+    // faster, by at most the step cap in a tick.
     static constexpr double kEscapeSpeed = 1.0;
     // [m/s] A tool without an active row approaches its target at most this much faster than the target
     // moves, so a tool that lags never jumps at the hand. Exception: ProxyInput::surfaceMoved.

@@ -48,7 +48,7 @@ void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     target_ = input.target;
     hasTarget_ = true;
     cutTravel_ = 0.0;
-    budget_ = {escape_, std::min(stepCap_, 2.0 * escape_), carried + moved + catchUp_};
+    budget_ = {escape_, stepCap_, carried + moved + catchUp_};
     setMetric(input.metricRadius, rows);
 }
 
