@@ -13,6 +13,7 @@ namespace {
 constexpr double kSigmas = 3.0;
 constexpr double kDeep = 0.25;    // of R + r: only new data can bring a leaf nearer to the surface
 constexpr double kNearest = 1e-6; // [m] from the camera; nearer points have no pixel
+constexpr double kMostJump = 0.1; // [m] beyond R + r, of a surface between two sets: 3 m/s at 30 Hz
 
 // Deepest overlap of the leaf with any listed sphere [m]; 0 when it is clear of all.
 double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
@@ -33,6 +34,21 @@ bool hasSphere(const ContactSet& set, uint32_t leaf, const dvec3& towardsCamera,
         }
     }
     return false;
+}
+
+// Whether at least half of the pixels around a point [m, camera frame] show a surface nearer than z [m]: more
+// than marine snow.
+bool hasExtent(const HostFixtures& fixtures, const dvec3& point, double z) {
+    const Intrinsics& lens = fixtures.camera.depth;
+    const glm::dvec2 pixel = glm::floor(lens.project(point) + 0.5);
+    int near = 0;
+    for (double v = std::max(0.0, pixel.y - 1.0); v <= pixel.y + 1.0 && v < lens.height; ++v) {
+        for (double u = std::max(0.0, pixel.x - 1.0); u <= pixel.x + 1.0 && u < lens.width; ++u) {
+            const uint16_t raw = fixtures.depth[static_cast<size_t>(v) * lens.width + static_cast<size_t>(u)];
+            near += raw != 0 && raw * fixtures.camera.metresPerUnit < z ? 1 : 0;
+        }
+    }
+    return near >= 5;
 }
 
 } // namespace
@@ -79,21 +95,29 @@ BehindTracker::LeafPlace BehindTracker::placeOf(const ContactSet& set, uint32_t 
     return place;
 }
 
-bool BehindTracker::becameBehind(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
-                                 uint32_t leaf, const ContactSet& set) {
-    const double margin = sample.margin(camera);
+bool BehindTracker::becameBehind(const HostFixtures& fixtures, const DepthSample& sample,
+                                 const LeafPlace& place, const Leaf& leaf, uint32_t index,
+                                 const ContactSet& set) {
+    const double margin = sample.margin(fixtures.camera);
     const double before = place.resting > 2.0 * margin ? std::max(margin, kDeep * place.resting) : -margin;
-    return sample.before < before && place.range - sample.range() <= place.nearer &&
-           hasSphere(set, leaf, place.toCamera / place.range, before);
+    if (!(sample.before < before)) {
+        return false;
+    }
+    const bool near = place.range - sample.range() <= place.nearer &&
+                      hasSphere(set, index, place.toCamera / place.range, before);
+    return near || (leaf.range - sample.z <= place.resting + kMostJump &&
+                    hasExtent(fixtures, sample.point, sample.point.z + before));
 }
 
 // Of a leaf that is behind.
-void BehindTracker::follow(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+void BehindTracker::follow(const HostFixtures& fixtures, const DepthSample& sample, const LeafPlace& place,
                            Leaf& leaf) {
     const bool surface = sample.known && sample.forbidden;
-    if (surface && leaf.range - sample.range() <= place.nearer) {
+    const double nearer = surface ? leaf.range - sample.range() : 0.0;
+    if (surface && (nearer <= place.nearer || (nearer <= place.resting + kMostJump &&
+                                               hasExtent(fixtures, sample.point, sample.point.z)))) {
         leaf.range = sample.range(); // the surface may have moved
-    } else if (sample.known && !surface && sample.before > sample.margin(camera)) {
+    } else if (sample.known && !surface && sample.before > sample.margin(fixtures.camera)) {
         leaf.behind = false; // the view to it is free
     }
     if (place.range <= leaf.range - place.resting && place.overlap <= 0.0) {
@@ -108,7 +132,6 @@ void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, doubl
     any_ = true;
     generation_ = fixtures.generation;
     set.behind.clear();
-    const CameraInfo& camera = fixtures.camera;
     const Pose cameraTbase = inverse(fixtures.baseTcamera);
     for (uint32_t i = 0; i < leaves_.size(); ++i) {
         Leaf& leaf = leaves_[i];
@@ -117,8 +140,8 @@ void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, doubl
         if (leaf.behind || (newSet && leaf.inFront && surface)) {
             const LeafPlace place = placeOf(set, i, tool.leaves()[i].radius, regionRadius);
             if (leaf.behind) {
-                follow(camera, sample, place, leaf);
-            } else if (becameBehind(camera, sample, place, i, set)) {
+                follow(fixtures, sample, place, leaf);
+            } else if (becameBehind(fixtures, sample, place, leaf, i, set)) {
                 leaf.behind = true;
                 leaf.range = sample.range();
             }
@@ -127,8 +150,9 @@ void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, doubl
                 set.behind.push_back({i, place.toCamera / place.range, std::max(left, place.overlap)});
             }
         }
-        leaf.inFront =
-            !leaf.behind && surface && (sample.before > 0.0 || sample.before > -sample.margin(camera));
+        leaf.inFront = !leaf.behind && surface &&
+                       (sample.before > 0.0 || sample.before > -sample.margin(fixtures.camera));
+        leaf.range = leaf.behind ? leaf.range : sample.z;
     }
 }
 

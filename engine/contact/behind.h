@@ -30,9 +30,10 @@ struct PatchBits {
 // 3 sigma of depth, and the centre was in front of a forbidden surface at the last query on the previous
 // set. A leaf that gets behind a surface while the set is unchanged, or that was not in front of one
 // before, moved through free space or is hidden. It is occluded, not behind. So is a leaf behind something
-// that appears more than R + r and the query's reach in front of it, because a surface that the leaf was in
-// front of moves less between two frames. Nor does a pixel flag a leaf if the set has no sphere there, as
-// where the filter rejected its point; it may lengthen the way out of a leaf that is flagged already.
+// that appears far in front of it. The surface that a leaf was in front of is taken to come nearer by at most
+// R + r and 100 mm between two sets (3 m/s at 30 Hz), and to cover more than a pixel. Nearer to the leaf than
+// R + r and the query's reach, any surface counts if the set has a sphere there, which it has not where the
+// filter rejected the point.
 //
 // The flag stays until the view to the leaf is free, or until the leaf is clear in front: R + r before the
 // surface and not overlapping any sphere (noise puts some spheres before their pixel's depth). Where R + r is
@@ -67,7 +68,8 @@ private:
     struct Leaf {
         bool inFront = false; // in front of a forbidden surface at the last query
         bool behind = false;
-        double range = 0.0; // [m] to the surface that it is behind
+        // [m] from the camera to the surface that it is behind; else depth of the surface on its pixel
+        double range = 0.0;
     };
     // A leaf at the query.
     struct LeafPlace {
@@ -78,9 +80,9 @@ private:
         double overlap = 0.0; // [m] deepest overlap with a listed sphere; 0 = clear
     };
     static LeafPlace placeOf(const ContactSet& set, uint32_t leaf, double radius, double regionRadius);
-    static bool becameBehind(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
-                             uint32_t leaf, const ContactSet& set);
-    static void follow(const CameraInfo& camera, const DepthSample& sample, const LeafPlace& place,
+    static bool becameBehind(const HostFixtures& fixtures, const DepthSample& sample, const LeafPlace& place,
+                             const Leaf& leaf, uint32_t index, const ContactSet& set);
+    static void follow(const HostFixtures& fixtures, const DepthSample& sample, const LeafPlace& place,
                        Leaf& leaf);
 
     std::vector<Leaf> leaves_;

@@ -201,7 +201,7 @@ TEST_CASE("A tool off the line or tilted off the axis is pulled back by at most 
 
 TEST_CASE("A surface that jumps past the tool moves it out on the camera's side, not through the surface") {
     for (const double noise : {0.0, 0.0005}) {
-        for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.11}) {
+        for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.12}) {
             ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(dvec3(0.002, 0.001, 0.445)));
             REQUIRE(rig.depth() < 0.0);
             rig.step(rig.proxy().pose());
@@ -243,12 +243,12 @@ TEST_CASE("Between oblique surfaces of new data a tool escapes by at most the st
     }
 }
 
-TEST_CASE("A surface that appears more than R + r and the reach in front of the tool leaves it where it is") {
+TEST_CASE("A surface that appears far in front of the tool leaves it where it is") {
     for (const double noise : {0.0, 0.0005}) {
         const dvec3 start(0.002, 0.001, 0.445);
         ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(start));
         rig.step(rig.proxy().pose());
-        rig.replace(wallImage(0.38, 2, 0.04, noise));
+        rig.replace(wallImage(0.33, 2, 0.04, noise));
         for (int tick = 0; tick < 50; ++tick) {
             rig.step(at(start));
             CHECK(rig.inForce().behind.empty());
