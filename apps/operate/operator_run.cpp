@@ -212,7 +212,8 @@ void OperatorRun::checkArming() {
 void OperatorRun::switchPilot() {
     Console& console = display_.console;
     const std::string name = std::exchange(console.requests.pilot, "");
-    if (!name.empty() && cameraSilent(display_.view.step().record)) {
+    const bool gpuGone = session_.handover->notInUse(); // the new run starts with the previous regions then
+    if (!name.empty() && !gpuGone && cameraSilent(display_.view.step().record)) {
         return console.notify("no camera frames: choose the pilot when they are back");
     }
     if (name.empty() || !session_.scene.choosePilot(name)) {

@@ -215,6 +215,7 @@ TEST_CASE("Another pilot takes over while there is no GPU, and gets forces when 
     rig.reopen(scene, {"--pilot", "ben"});
     press(rig);
     lost.lose("passes");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["scene_age_s"] > 0.7; })); // no longer a late frame
     rig.click("pilot anna");
     REQUIRE(rig.await([](const json& s) { return s["pilot"]["name"] == "anna" && s["run"]["turns"] > 100; }));
     CHECK(rig.state()["gpu"]["there"] == false);
