@@ -25,6 +25,12 @@ double energyOf(double pull, double stiffness, double gain, double limit) {
 
 constexpr double kNoLimit = 1e300;
 
+// The part of a motion along a direction; zero without one.
+dvec3 along(const dvec3& motion, const dvec3& direction) {
+    const double square = glm::dot(direction, direction);
+    return square > 0.0 ? glm::dot(motion, direction) / square * direction : dvec3(0.0);
+}
+
 } // namespace
 
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
@@ -152,14 +158,23 @@ void PassivityController::rememberCredit(double credit) noexcept {
 // repaid when they are empty: the hand never leaves faster than it came.
 double PassivityController::release(const PassivityStep& tick, const dvec3& v, const dvec3& w,
                                     double owed) const noexcept {
-    const Wrench& acting = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
-    const double returned = workOf(acting, v, w);
+    const double returned = workOf(acting(), v, w);
     const double owes = owed / std::max(owed, stored_),
                  braked = std::clamp(2.0 * (owes - kMinDebtRatio), 0.0, owes);
     const double kk = options_.metricRadius * options_.metricRadius;
     const double most = kMaxRelease / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)) *
                         (glm::dot(v, v) + kk * glm::dot(w, w));
     return std::clamp(braked * returned, 0.0, most);
+}
+
+// Power [W] of the damping. What noisy frames generate is dissipated by any motion, which also calms a light
+// hand. More than that comes from a surface that moves: only motion along the reaction dissipates it, so a
+// hand that slides is not braked.
+PassivityController::Power PassivityController::power(const PassivityStep& tick, double owed) const noexcept {
+    const double fromData = std::min(dataDebt_, owed), paced = fromData / std::max(tick.elapsed, tick.repay);
+    const double noise = kNoiseDebtRatio * std::max(stored_, kTolerance);
+    const double moved = std::clamp(fromData / noise - 1.0, 0.0, 1.0);
+    return {(owed - fromData) / tick.elapsed + (1.0 - moved) * paced, moved * paced};
 }
 
 Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
@@ -177,14 +192,20 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     }
     const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
-    const double fromData = std::min(dataDebt_, owed);
-    const double power = (owed - fromData) / tick.elapsed + fromData / std::max(tick.elapsed, tick.repay);
-    double alpha = tick.fadeGain * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
+    const Power p = power(tick, owed);
+    const double alpha = std::max(std::min(p.anyMotion / speed, most), release(tick, v, w, owed) / speed);
+    const dvec3 vn = along(v, acting().force), wn = along(w, acting().torque);
+    const double pushed = glm::dot(vn, vn) + kk * glm::dot(wn, wn);
+    const double beta = pushed > 0.0 ? std::min(p.alongReaction / pushed, std::max(0.0, most - alpha)) : 0.0;
+    Wrench damper{-tick.fadeGain * (alpha * v + beta * vn), -tick.fadeGain * kk * (alpha * w + beta * wn)};
     if (!tick.rows) {
-        const double left = std::min(1.0, (kFreeTime - timeWithoutRows_) / kFreeEnd);
-        alpha = std::min(alpha, left * kFreeDamper / std::sqrt(speed));
+        const double left = std::clamp((kFreeTime - timeWithoutRows_) / kFreeEnd, 0.0, 1.0) * kFreeDamper,
+                     size = std::sqrt(glm::dot(damper.force, damper.force) +
+                                      glm::dot(damper.torque, damper.torque) / kk);
+        const double part = size > left ? left / size : 1.0;
+        damper = {part * damper.force, part * damper.torque};
     }
-    return {-alpha * v, -alpha * kk * w};
+    return damper;
 }
 
 Wrench PassivityController::step(const PassivityStep& tick) noexcept {

@@ -59,10 +59,11 @@ public:
     explicit PassivityController(const PassivityOptions& options);
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
-    // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
-    // (kMaxDamping, kMaxImpulse); more while the springs push the hand out (release()); zero below kMinSpeed,
-    // kMinTurnSpeed. Without an active row it is at most kFreeDamper and ends at kFreeTime; energy that
-    // remains then is not removed.
+    // with alpha = debt / (T (v.v + k^2 w.w)), capped (kMaxDamping, kMaxImpulse). What appeared is divided by
+    // `repay` instead of T; more of it than noise generates is damped by the same law along the reaction
+    // alone. More while the springs push the hand out (release()); zero below kMinSpeed, kMinTurnSpeed.
+    // Without an active row it is at most kFreeDamper and ends at kFreeTime; energy that remains then is not
+    // removed.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
@@ -88,6 +89,9 @@ public:
     static constexpr double kMaxRelease = 0.1;
     // Smaller debts, relative to the stored energy, are sensor noise: `repay` removes them.
     static constexpr double kMinDebtRatio = 0.25;
+    // Debts up to this part of the stored energy are damped in all directions, from twice it on along the
+    // reaction. Noise at a light hand at rest stays below.
+    static constexpr double kNoiseDebtRatio = 0.0625;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kFreeEnd = 0.03;    // [s] in which it ends then, without a click
@@ -99,6 +103,9 @@ public:
 private:
     struct Applied {
         Wrench contact, damper;
+    };
+    struct Power { // [W] that the damping dissipates
+        double anyMotion, alongReaction;
     };
     struct Ramp { // what scales and limits the springs
         double gain = 1.0, force = 0.0, torque = 0.0;
@@ -115,6 +122,10 @@ private:
     void rememberCredit(double credit) noexcept;
     Wrench actuated(const PassivityStep& tick, const dvec3& moved, const dvec3& turned) const noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;
+    const Wrench& acting() const noexcept { // what the springs do to the hand in the interval that ends now
+        return applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
+    }
+    Power power(const PassivityStep& tick, double owed) const noexcept;
     double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;
 

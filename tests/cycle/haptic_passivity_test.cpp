@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passivity controller and the stiffness watch in the haptic step.
+// The passivity controller in the haptic step.
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
@@ -182,8 +182,8 @@ TEST_CASE("While the force of regions that vanished fades, the damping is below 
     REQUIRE(rig.cycle->passivity().debt() > 0.1);
     double braked = 0.0;
     for (int i = 0; i < 150; ++i) {
-        rig.hand.position.x += 2e-4; // 0.2 m/s across the fading force
-        off.hand.position.x += 2e-4;
+        rig.hand.position.z -= 2e-4; // 0.2 m/s against the fading force
+        off.hand.position.z -= 2e-4;
         const StepRecord a = rig.step(), b = off.step();
         CHECK(b.wrench.force.z > 3.0);
         const double damping = glm::distance(a.wrench.force, b.wrench.force);
@@ -192,6 +192,35 @@ TEST_CASE("While the force of regions that vanished fades, the damping is below 
         braked = std::max(braked, damping);
     }
     CHECK(braked > 0.9);
+}
+
+TEST_CASE("A hand that slides on a surface that moved towards it is not braked, and gives nothing back") {
+    HapticRig rig = restingRig(true), off = restingRig(false);
+    for (HapticRig* r : {&rig, &off}) {
+        r->show(raisedWall(0.015));
+        r->sceneAges = false;
+        r->ticks(300);
+    }
+    const double owed = rig.cycle->passivity().debt();
+    REQUIRE(owed > 0.1);
+    for (int i = 0; i < 150; ++i) {
+        rig.hand.position.x += 2e-4; // 0.2 m/s
+        off.hand.position.x += 2e-4;
+        const StepRecord a = rig.step(), b = off.step();
+        // Only where it slides off the top of a sphere, because there the spring pushes it on. In all
+        // directions it would be 20 N s/m, 4 N.
+        CHECK(glm::distance(a.wrench.force, b.wrench.force) < 0.7);
+        CHECK(b.wrench.force.z > 15.0);
+    }
+    CHECK(rig.cycle->passivity().debt() > 0.5 * owed);
+    double weaker = 0.0;
+    for (int i = 0; i < 100; ++i) { // out at 0.1 m/s
+        rig.hand.position.z += 1e-4;
+        off.hand.position.z += 1e-4;
+        const double with = forceOf(rig.step());
+        weaker = std::max(weaker, forceOf(off.step()) - with);
+    }
+    CHECK(weaker > 5.0);
 }
 
 TEST_CASE("Forces that fade in a gap of frames and return do not brake a hand that slides on a wall") {
@@ -250,50 +279,4 @@ TEST_CASE("Guidance work on the hand does not count as generated energy") {
     }
     CHECK(rig.cycle->passivity().dissipated() == 0.0);
     CHECK(rig.cycle->passivity().generated() <= 1e-9);
-}
-
-TEST_CASE("Slow ticks lower the automatic stiffness smoothly, the margin returns to 0, and lockstep is "
-          "unaffected") {
-    HapticRig rig(handScene(), at(0, 0, 0.05));
-    StepInput input;
-    input.deviceThandle = rig.hand;
-    for (int i = 0; i < 300; ++i) { // no measured period
-        rig.cycle->step(input);
-    }
-    CHECK(rig.cycle->springs().stiffness == 1000.0);
-    input.measuredPeriod = 0.002;
-    double before = 1000.0;
-    StepRecord record;
-    for (int i = 0; i < 400; ++i) {
-        record = rig.cycle->step(input);
-        const double now = rig.cycle->springs().stiffness;
-        CHECK(now <= before);
-        CHECK(before - now <= 10.0 + 1e-9);
-        before = now;
-        if (i == 0) {
-            CHECK(record.marginPassive == doctest::Approx(-0.5));
-        }
-    }
-    CHECK(before == doctest::Approx(500.0));
-    CHECK(rig.cycle->springs().metricRadius == doctest::Approx(rig.options.springs.metricRadius));
-    CHECK(std::abs(record.marginPassive) <= 1e-6);
-    CHECK(std::abs(record.marginUncoupled) <= 1e-6);
-}
-
-TEST_CASE(
-    "An orientation of non-unit length means the same orientation and sends no wrench through a dead axis") {
-    HapticRig unit(handScene("w5d"), at(0, 0, 0.02)), scaled(handScene("w5d"), at(0, 0, 0.02));
-    for (HapticRig* rig : {&unit, &scaled}) {
-        rig->show(wallSet());
-        rig->sceneAges = false;
-    }
-    for (int i = 0; i < 400; ++i) {
-        unit.hand = {{0.0, 0.0, 0.02 - 4e-5 * i}, rotationExp({0.002 * i, 0.3, 0.004 * i})};
-        scaled.hand = unit.hand;
-        scaled.hand.rotation = scaled.hand.rotation * (i % 2 == 0 ? 1e-3 : 50.0);
-        const auto a = unit.step(), b = scaled.step();
-        REQUIRE(glm::distance(a.deviceWrench.force, b.deviceWrench.force) <= 1e-9);
-        REQUIRE(glm::distance(a.deviceWrench.torque, b.deviceWrench.torque) <= 1e-9);
-        REQUIRE(glm::distance(b.deviceWrench.force + b.residual.force, b.wrench.force) <= 1e-12);
-    }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Live devices in the haptic cycle: any start pose, recovery after a loss, axes without motors.
+// Live devices in the haptic cycle: any start pose, recovery after a loss, axes without motors, slow ticks.
 #include "tests/cycle/haptic_rig.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
@@ -101,5 +102,51 @@ TEST_CASE("A sample more than 1000 km away counts as not finite, and does no las
         CHECK(record.finite);
         CHECK(forceOf(record) == doctest::Approx(0.1)); // the limit of 20 N rises from zero in 0.2 s
         CHECK(forceOf(rig.ticks(60)) == doctest::Approx(full));
+    }
+}
+
+TEST_CASE("Slow ticks lower the automatic stiffness smoothly, the margin returns to 0, and lockstep is "
+          "unaffected") {
+    HapticRig rig(handScene(), at(0, 0, 0.05));
+    StepInput input;
+    input.deviceThandle = rig.hand;
+    for (int i = 0; i < 300; ++i) { // no measured period
+        rig.cycle->step(input);
+    }
+    CHECK(rig.cycle->springs().stiffness == 1000.0);
+    input.measuredPeriod = 0.002;
+    double before = 1000.0;
+    StepRecord record;
+    for (int i = 0; i < 400; ++i) {
+        record = rig.cycle->step(input);
+        const double now = rig.cycle->springs().stiffness;
+        CHECK(now <= before);
+        CHECK(before - now <= 10.0 + 1e-9);
+        before = now;
+        if (i == 0) {
+            CHECK(record.marginPassive == doctest::Approx(-0.5));
+        }
+    }
+    CHECK(before == doctest::Approx(500.0));
+    CHECK(rig.cycle->springs().metricRadius == doctest::Approx(rig.options.springs.metricRadius));
+    CHECK(std::abs(record.marginPassive) <= 1e-6);
+    CHECK(std::abs(record.marginUncoupled) <= 1e-6);
+}
+
+TEST_CASE(
+    "An orientation of non-unit length means the same orientation and sends no wrench through a dead axis") {
+    HapticRig unit(handScene("w5d"), at(0, 0, 0.02)), scaled(handScene("w5d"), at(0, 0, 0.02));
+    for (HapticRig* rig : {&unit, &scaled}) {
+        rig->show(wallSet());
+        rig->sceneAges = false;
+    }
+    for (int i = 0; i < 400; ++i) {
+        unit.hand = {{0.0, 0.0, 0.02 - 4e-5 * i}, rotationExp({0.002 * i, 0.3, 0.004 * i})};
+        scaled.hand = unit.hand;
+        scaled.hand.rotation = scaled.hand.rotation * (i % 2 == 0 ? 1e-3 : 50.0);
+        const auto a = unit.step(), b = scaled.step();
+        REQUIRE(glm::distance(a.deviceWrench.force, b.deviceWrench.force) <= 1e-9);
+        REQUIRE(glm::distance(a.deviceWrench.torque, b.deviceWrench.torque) <= 1e-9);
+        REQUIRE(glm::distance(b.deviceWrench.force + b.residual.force, b.wrench.force) <= 1e-12);
     }
 }
