@@ -117,9 +117,9 @@ TEST_CASE("tune on a full disk leaves every file of an earlier run unchanged") {
         const ProgramRun run = runFathom(command(stage, {"--error", limit, "--frames", "8", "--limit", "1"}));
         CHECK(run.exitCode == 1);
         CHECK_MESSAGE(has(run.err, (stage / "tuned/tune.png").string() + ": cannot"), run.err);
-        for (const auto& [name, text] : before) {
-            CAPTURE(name);
-            CHECK(stage.read("tuned/" + name) == text);
+        for (const auto& file : before) {
+            CAPTURE(file.first);
+            CHECK(stage.read("tuned/" + file.first) == file.second);
         }
     }
 }
