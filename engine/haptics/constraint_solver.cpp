@@ -265,10 +265,6 @@ void ConstraintSolver::unscale(const ScaledVector& y, std::span<double> x) const
     }
 }
 
-void ConstraintSolver::tangential(std::span<const double> x, std::span<double> out) const noexcept {
-    unscale(active_.split(scaled(x)).z, out);
-}
-
 void ConstraintSolver::finish(SolveStatus status, ScaledVector& y, std::span<double> x) noexcept {
     if (status != SolveStatus::Optimal) {
         active_.count = 0;

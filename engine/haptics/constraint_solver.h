@@ -48,9 +48,6 @@ public:
     // Multipliers of the last optimal solve, one per row, >= 0, such that M (x - t) = sum lambda_i n_i.
     std::span<const double> multipliers() const noexcept { return {multipliers_.data(), rows_.size()}; }
     int activeRows() const noexcept { return active_.count; }
-    // The part of a motion x that changes no active row of the last optimal solve; in the metric it is
-    // orthogonal to the rest.
-    void tangential(std::span<const double> x, std::span<double> out) const noexcept;
     // Rows added or dropped by the last solve, and the limit at which it gives up (cycling guard).
     int changes() const noexcept { return changes_; }
     int mostChanges() const noexcept { return 16 * n_ + 64 + static_cast<int>(rows_.size() / 4); }

@@ -71,11 +71,6 @@ public:
     bool solve(std::span<const double> target, std::span<double> x) noexcept {
         return solver_.solve(target, x) == SolveStatus::Optimal;
     }
-    // As ConstraintSolver::tangential(); false without an active row.
-    bool tangential(std::span<const double> x, std::span<double> out) const noexcept {
-        solver_.tangential(x, out);
-        return solver_.activeRows() > 0;
-    }
     // Loads every other row that the solution violates. False when there is none.
     bool loadViolated(std::span<const double> x) noexcept;
     // For walls that leave no room for the skin: rows that neither overlap nor escape only require the gap

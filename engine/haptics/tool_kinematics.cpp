@@ -96,30 +96,36 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
         !solveFor(wanted_, found.full, rows, out)) {
         return false;
     }
+    rows.recordActive();
     Motion stuck;
     if (friction_ > 0.0 && !rows.escaping()) {
-        stuck = applyFriction(found.full, rows);
+        stuck = applyFriction(found.full, rows, out);
     }
     out.stuck = stuck.a;
     out.stuckTurn = stuck.alpha;
     answer = found;
-    rows.recordActive();
     return true;
 }
 
-// Friction as a play: shortens the sliding part of the solution by mu times the distance that the rows take
-// from the target. At rest the spring then also pulls sideways, by at most mu times the reaction. The tool
-// still only moves nearer to the target, so friction stores no energy that the hand did not give. Returns
-// what it took off.
-Motion ToolKinematics::applyFriction(Motion& full, const ProxyRows& rows) const noexcept {
-    std::array<double, 6> slide{};
-    if (!rows.tangential(unknownsOf(full), slide)) {
+// Friction as a play: shortens the sliding part of the solution, across the reaction, by mu times the
+// distance that the rows take from the target. At rest the spring then also pulls sideways, by at most mu
+// times the reaction. The tool still only moves nearer to the target, so friction stores no energy that the
+// hand did not give. Returns what it took off.
+Motion ToolKinematics::applyFriction(Motion& full, ProxyRows& rows, ProxyStep& out) const noexcept {
+    const Motion back = wanted_ - full;
+    if (isNothing(back)) {
         return {};
     }
-    const Motion sliding{dvec3(slide[0], slide[1], slide[2]), dvec3(slide[3], slide[4], slide[5])};
-    const double held = friction_ * lengthOf(wanted_ - full, metricRadius_);
-    const Motion stuck = std::min(1.0, held / divisorOf(sliding, metricRadius_)) * sliding;
-    full = full - stuck;
+    const double held = lengthOf(back, metricRadius_);
+    const double along = productOf(full, back, metricRadius_) / (held * held);
+    const Motion sliding = full - along * back;
+    Motion rest = full - std::min(1.0, friction_ * held / divisorOf(sliding, metricRadius_)) * sliding;
+    // Spheres of one surface have rows at slightly different angles: a shorter way may violate some.
+    if (rows.active().size() > 1 && !solveFor(rest, rest, rows, out)) {
+        return {};
+    }
+    const Motion stuck = full - rest;
+    full = rest;
     return stuck;
 }
 

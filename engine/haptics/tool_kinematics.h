@@ -101,7 +101,7 @@ private:
     bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
     double fractionToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
                          LeafState& leaves) const noexcept;
-    Motion applyFriction(Motion& full, const ProxyRows& rows) const noexcept;
+    Motion applyFriction(Motion& full, ProxyRows& rows, ProxyStep& out) const noexcept;
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;

@@ -62,9 +62,12 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept {
     return {target.position - pose.position, rotationBetween(pose.rotation, target.rotation)};
 }
 
+double productOf(const Motion& a, const Motion& b, double k) noexcept {
+    return glm::dot(a.a, b.a) + k * k * glm::dot(a.alpha, b.alpha);
+}
+
 double lengthOf(const Motion& motion, double k) noexcept {
-    return std::sqrt(
-        std::max(0.0, glm::dot(motion.a, motion.a) + k * k * glm::dot(motion.alpha, motion.alpha)));
+    return std::sqrt(std::max(0.0, productOf(motion, motion, k)));
 }
 
 double divisorOf(const Motion& motion, double k) noexcept {

@@ -33,6 +33,8 @@ Pose moved(const Pose& pose, const Motion& motion) noexcept;
 // Remaining motion from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
 Motion remaining(const Pose& pose, const Pose& target) noexcept;
 
+// Inner product [m^2] of the metric: a . b of the translations plus k^2 times that of the rotations.
+double productOf(const Motion& a, const Motion& b, double k) noexcept;
 // sqrt(|a|^2 + k^2 |alpha|^2) [m]; 0 where that is no number.
 double lengthOf(const Motion& motion, double k) noexcept;
 // The same, but never 0, to divide by.

@@ -114,6 +114,30 @@ TEST_CASE("With friction the tool stays behind the hand by mu times its depth, e
     CHECK(back == doctest::Approx(-0.2 * depth).epsilon(0.05));
 }
 
+TEST_CASE("With friction a bar slides evenly, also where it touches spheres of one wall at several angles") {
+    std::vector<Sphere> leaves;
+    for (int i = -3; i <= 3; ++i) {
+        leaves.push_back({{0.015 * i, 0.0, 0.0}, 0.008});
+    }
+    for (const double friction : {0.1, 0.3, 1.0}) {
+        CAPTURE(friction);
+        ProxyRig rig(makeTool(leaves), lattice(), {{-0.02, 0.001, 0.02}, kUpright}, sliding(friction, true));
+        double jump = 0.0, most = 0.0, before = 0.0;
+        for (int k = 0; k < 800; ++k) {
+            const Pose hand{{5e-5 * k - 0.02, 0.001 + 1e-5 * k, 0.0}, kUpright}; // 8 mm deep
+            const ProxyStep step = rig.step(hand);
+            REQUIRE(rig.depth() <= 0.0);
+            const double lateral = hand.position.x - step.allowed.position.x;
+            jump = k < 200 ? jump : std::max(jump, std::abs(lateral - before));
+            most = std::max(most, lateral);
+            before = lateral;
+        }
+        CHECK(jump < 3e-4 * (1.0 + friction)); // 0.3 N at 1000 N/m
+        CHECK(most > 0.7 * friction * 0.008);
+        CHECK(most < 1.3 * friction * 0.008);
+    }
+}
+
 TEST_CASE("A tool dragged over a noisy wall of 60 k spheres never enters it") {
     std::mt19937_64 random(21);
     HostFixtures fixtures = emptySet();
