@@ -11,11 +11,12 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMinByHand = 1e-6;         // [N] less is rounding
-constexpr double kWithheldShare = 0.5;      // of the spring
-constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
-constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
-constexpr double kNewSurfaceTravel = 0.01;  // [m] of travel, after which the surface is another one,
+constexpr double kMinByHand = 1e-6;        // [N] less is rounding
+constexpr double kWithheldShare = 0.5;     // of the spring
+constexpr double kNoiseRatio = 0.65;       // of the mean over the mean size: up to here it is noise
+constexpr double kSlowTimeDecay = 10.0;    // [s/s] without contact, of the time constant
+constexpr double kNewPlaceTravel = 0.002;  // [m] of travel, in which a shift of the tool is undone by sliding
+constexpr double kNewSurfaceTravel = 0.01; // [m] of travel, after which the surface is another one,
 constexpr double kNewSurfaceSlowTime = 1.2; // [s] and the time constant at most there
 // Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to
 // tick.
@@ -74,7 +75,8 @@ Wrench SurfaceNoise::step(const SurfaceNoiseInput& input) noexcept {
     Part along, across;
     along.withheld = alongSpring(withheld_);
     along.mean = alongSpring(meanWithheld_);
-    across.withheld = sumOf(withheld_, along.withheld, -1.0);
+    const double travel = input.stiffness > 0.0 ? input.byHand / input.stiffness : 0.0;
+    across.withheld = scaled(sumOf(withheld_, along.withheld, -1.0), std::exp(-travel / kNewPlaceTravel));
     across.mean = sumOf(meanWithheld_, along.mean, -1.0);
     meanAlong_ += blend * (metricSize(along.withheld, k) - meanAlong_);
     meanAcross_ += blend * (metricSize(across.withheld, k) - meanAcross_);

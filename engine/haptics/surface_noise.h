@@ -27,6 +27,10 @@ struct SurfaceNoiseInput {
 // with the time constant kSettle. The rest is released with a time constant that grows as fast as time passes
 // while the hand rests on the surface, up to kMaxSlowTime: so the felt surface is the mean of all surfaces
 // since the contact began.
+//
+// A frame also shifts the tool sideways, onto other spheres. A hand that slides undoes that, and feels it:
+// so what is withheld across the reaction ends within some millimetres of travel. Otherwise such shifts
+// would add up to a sideways force that no surface gives.
 class SurfaceNoise {
 public:
     static constexpr double kBand = 0.002;      // [m] of motion of the surface

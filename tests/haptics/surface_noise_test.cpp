@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a hand feels of a surface that each frame of a sensor shows a little elsewhere.
 #include "engine/haptics/reaction.h"
+#include "engine/haptics/surface_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,4 +151,23 @@ TEST_CASE("A hand that moved elsewhere begins a new mean") {
     CHECK(feltOutlier(0.0) < 0.015);
     CHECK(feltOutlier(0.03) > 0.02);
     CHECK(feltOutlier(0.03) < 0.06);
+}
+
+TEST_CASE(
+    "What frames shift across the reaction and a hand that slides undoes adds up to no sideways force") {
+    SurfaceNoise noise;
+    SurfaceNoiseInput tick;
+    tick.stiffness = 1000.0;
+    tick.byHand = 0.06; // [N] 60 mm/s
+    double across = 0.0, felt = 0.0, spring = 0.0;
+    for (int i = 0; i < 1100; ++i) {
+        const bool frame = i % 11 == 0;
+        across += frame ? 0.3 : -0.03; // lifted onto the next spheres, and down again along them
+        tick.spring = {{across, 0.0, 10.0}, dvec3(0.0)};
+        tick.dataPushes = frame;
+        felt += noise.step(tick).force.x / 1100.0;
+        spring += across / 1100.0;
+    }
+    CHECK(spring == doctest::Approx(0.15).epsilon(0.01));
+    CHECK(std::abs(felt - spring) < 0.8); // of the 2 N that may be withheld
 }
