@@ -167,14 +167,13 @@ double PassivityController::release(const PassivityStep& tick, const dvec3& v, c
     return std::clamp(braked * returned, 0.0, most);
 }
 
-// Power [W] of the damping. What noisy frames generate is dissipated by any motion, which also calms a light
-// hand. More than that comes from a surface that moves: only motion along the reaction dissipates it, so a
-// hand that slides is not braked.
-PassivityController::Power PassivityController::power(const PassivityStep& tick, double owed) const noexcept {
+// What new data generated is dissipated by motion along the reaction alone: a hand that slides is not braked.
+// Motion of a hand at rest is all damped, which calms a light hand on a noisy surface.
+PassivityController::Power PassivityController::power(const PassivityStep& tick, double owed,
+                                                      double speed) const noexcept {
     const double fromData = std::min(dataDebt_, owed), paced = fromData / std::max(tick.elapsed, tick.repay);
-    const double noise = kNoiseDebtRatio * std::max(stored_, kTolerance);
-    const double moved = std::clamp(fromData / noise - 1.0, 0.0, 1.0);
-    return {(owed - fromData) / tick.elapsed + (1.0 - moved) * paced, moved * paced};
+    const double slides = std::clamp(speed / kRestingSpeed - 1.0, 0.0, 1.0);
+    return {(owed - fromData) / tick.elapsed + (1.0 - slides) * paced, slides * paced};
 }
 
 Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
@@ -192,11 +191,16 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     }
     const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
-    const Power p = power(tick, owed);
-    const double alpha = std::max(std::min(p.anyMotion / speed, most), release(tick, v, w, owed) / speed);
+    const Power p = power(tick, owed, std::sqrt(speed));
+    double alpha = std::max(std::min(p.anyMotion / speed, most), release(tick, v, w, owed) / speed);
     const dvec3 vn = along(v, acting().force), wn = along(w, acting().torque);
     const double pushed = glm::dot(vn, vn) + kk * glm::dot(wn, wn);
-    const double beta = pushed > 0.0 ? std::min(p.alongReaction / pushed, std::max(0.0, most - alpha)) : 0.0;
+    double beta = pushed > 0.0 ? std::min(p.alongReaction / pushed, std::max(0.0, most - alpha)) : 0.0;
+    if (workOf(acting(), v, w) > 0.0 && pushed > 0.0) { // weaken the push, never pull
+        const double push = std::max(0.0, workOf(tick.contact, v, w)) / pushed;
+        alpha = std::min(alpha, push);
+        beta = std::min(beta, push - alpha);
+    }
     Wrench damper{-tick.fadeGain * (alpha * v + beta * vn), -tick.fadeGain * kk * (alpha * w + beta * wn)};
     if (!tick.rows) {
         const double left = std::clamp((kFreeTime - timeWithoutRows_) / kFreeEnd, 0.0, 1.0) * kFreeDamper,

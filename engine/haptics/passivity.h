@@ -59,11 +59,11 @@ public:
     explicit PassivityController(const PassivityOptions& options);
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
-    // with alpha = debt / (T (v.v + k^2 w.w)), capped (kMaxDamping, kMaxImpulse). What appeared is divided by
-    // `repay` instead of T; more of it than noise generates is damped by the same law along the reaction
-    // alone. More while the springs push the hand out (release()); zero below kMinSpeed, kMinTurnSpeed.
-    // Without an active row it is at most kFreeDamper and ends at kFreeTime; energy that remains then is not
-    // removed.
+    // with alpha = debt / (T (v.v + k^2 w.w)), capped (kMaxDamping, kMaxImpulse). What appeared is divided
+    // by `repay` instead of T, and damped by the same law along the reaction alone while the hand slides. A
+    // push of the springs becomes weaker, and never a pull. More while the springs push the hand out
+    // (release()); zero below kMinSpeed, kMinTurnSpeed. Without an active row it is at most kFreeDamper and
+    // ends at kFreeTime; energy that remains then is not removed.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
@@ -89,9 +89,9 @@ public:
     static constexpr double kMaxRelease = 0.1;
     // Smaller debts, relative to the stored energy, are sensor noise: `repay` removes them.
     static constexpr double kMinDebtRatio = 0.25;
-    // Debts up to this part of the stored energy are damped in all directions, from twice it on along the
-    // reaction. Noise at a light hand at rest stays below.
-    static constexpr double kNoiseDebtRatio = 0.0625;
+    // [m/s] up to here a hand is at rest, and from twice it on it slides: then what new data generated is
+    // damped along the reaction alone.
+    static constexpr double kRestingSpeed = 0.005;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kFreeEnd = 0.03;    // [s] in which it ends then, without a click
@@ -125,7 +125,7 @@ private:
     const Wrench& acting() const noexcept { // what the springs do to the hand in the interval that ends now
         return applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
     }
-    Power power(const PassivityStep& tick, double owed) const noexcept;
+    Power power(const PassivityStep& tick, double owed, double speed) const noexcept;
     double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;
 

@@ -207,20 +207,38 @@ TEST_CASE("A hand that slides on a surface that moved towards it is not braked, 
         rig.hand.position.x += 2e-4; // 0.2 m/s
         off.hand.position.x += 2e-4;
         const StepRecord a = rig.step(), b = off.step();
-        // Only where it slides off the top of a sphere, because there the spring pushes it on. In all
-        // directions it would be 20 N s/m, 4 N.
+        // Only where the spring pushes it off a sphere; in all directions it would be 20 N s/m, 4 N.
         CHECK(glm::distance(a.wrench.force, b.wrench.force) < 0.7);
         CHECK(b.wrench.force.z > 15.0);
     }
     CHECK(rig.cycle->passivity().debt() > 0.5 * owed);
     double weaker = 0.0;
-    for (int i = 0; i < 100; ++i) { // out at 0.1 m/s
+    for (int i = 0; i < 170; ++i) { // out at 0.1 m/s, in contact to the end
         rig.hand.position.z += 1e-4;
         off.hand.position.z += 1e-4;
-        const double with = forceOf(rig.step());
-        weaker = std::max(weaker, forceOf(off.step()) - with);
+        const double with = rig.step().wrench.force.z;
+        CHECK(with > -0.1); // weaker, and never a pull
+        weaker = std::max(weaker, off.step().wrench.force.z - with);
     }
     CHECK(weaker > 5.0);
+}
+
+TEST_CASE("A hand that slides on a surface that rises slowly is not braked either") {
+    HapticRig rig = restingRig(true), off = restingRig(false);
+    for (int i = 0; i < 600; ++i) {
+        dvec3 force[2];
+        for (HapticRig* r : {&rig, &off}) {
+            if (i % 11 == 0) { // 90 Hz, 20 mm/s
+                r->show(raisedWall(2e-5 * i));
+                r->sceneAges = false;
+            }
+            r->hand.position.x += 6e-5;
+            force[r == &rig ? 0 : 1] = r->step().wrench.force;
+        }
+        const dvec3 braked = force[0] - force[1];
+        CHECK(std::hypot(braked.x, braked.y) < 0.6); // 20 N s/m would be 1.2 N
+    }
+    CHECK(rig.cycle->passivity().generated() > 0.01);
 }
 
 TEST_CASE("Forces that fade in a gap of frames and return do not brake a hand that slides on a wall") {
