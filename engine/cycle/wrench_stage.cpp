@@ -124,11 +124,15 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.springs = input.springs;
     tick.elapsed = input.elapsed;
     tick.rows = input.pushes != 0 || reaction_.size() > kMinFelt; // without what fades: that holds nothing
-    // Whatever a tick generates in which new data moves the tool comes from the new data.
-    tick.appears = reaction_.appears() || input.newData || input.escape;
-    tick.repay = reaction_.frameInterval();
     tick.forceLimit = ramps_.limitScale() * options_.forceLimit;
     tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
+    // Whatever a tick generates in which new data moves the tool comes from the new data. A lever gives back as
+    // a force what the hand put in as a torque that the device does not render, and so does an arm at the limit
+    // of a joint: that is no new energy, but cannot be told from it.
+    const bool lever = glm::length(reaction.torque - tick.contact.torque) > kMinFelt ||
+                       glm::length(reaction.torque) > tick.torqueLimit || (input.pushes & cause::kJoint) != 0;
+    tick.appears = reaction_.appears() || input.newData || input.escape || lever;
+    tick.repay = reaction_.frameInterval();
     if (ramps_.off()) { // meanwhile the hand may go anywhere
         passivity_.reset();
     }

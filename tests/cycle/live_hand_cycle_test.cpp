@@ -105,6 +105,23 @@ TEST_CASE("A sample more than 1000 km away counts as not finite, and does no las
     }
 }
 
+TEST_CASE("A turned bar leaves a wall at rest evenly, also on a device that renders no torque") {
+    HapticRig rig(handScene("desktop"), at(0, 0, 0.03), barTool());
+    rig.show(wallSet());
+    rig.sceneAges = false;
+    rig.ticks(250);
+    double most = 0.0, before = 0.0;
+    for (int i = 0; i < 1200; ++i) {
+        const double down = std::min(i, 400) / 400.0, up = std::max(0, i - 600) / 600.0; // 0.1 m/s
+        rig.hand = {{0.0, 0.001, 0.03 - 0.034 * down + 0.06 * up}, rotationExp({0.0, 0.2 * down, 0.0})};
+        const double force = forceOf(rig.step());
+        CHECK(before - force < 0.4); // the spring's part is 0.1 N
+        most = std::max(most, force);
+        before = force;
+    }
+    CHECK(most > 5.0);
+}
+
 TEST_CASE("Slow ticks lower the automatic stiffness smoothly, the margin returns to 0, and lockstep is "
           "unaffected") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
