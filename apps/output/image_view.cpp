@@ -8,6 +8,7 @@ namespace fathom {
 namespace {
 
 constexpr double kNearest = 1e-3; // [m] smallest distance in front of the camera
+constexpr int kMostRows = 4096;   // of an enlarged image; cairo draws at most 32767
 
 glm::dvec2 pinhole(const Intrinsics& lens, const dvec3& point) {
     return {lens.cx + lens.fx * point.x / point.z, lens.cy + lens.fy * point.y / point.z};
@@ -46,7 +47,8 @@ ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDe
         view.cameraTbase = camera.colourTdepth * view.cameraTbase;
     }
     const int width = std::max(1, static_cast<int>(view.lens.width));
-    view.scale = std::max(1, (leastWidth + width - 1) / width);
+    const int height = std::max(1, static_cast<int>(view.lens.height));
+    view.scale = std::max(1, std::min((leastWidth + width - 1) / width, kMostRows / height));
     return view;
 }
 

@@ -27,7 +27,7 @@ struct ImageView {
 };
 
 // The view of the colour image, or of the depth image (`ofDepth`), enlarged by the smallest integer factor
-// that makes it at least `leastWidth` pixels wide.
+// that makes it at least `leastWidth` pixels wide. A narrow image is enlarged less: to at most 4096 rows.
 ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDepth, int leastWidth);
 
 } // namespace fathom

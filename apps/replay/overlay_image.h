@@ -28,7 +28,8 @@ struct OverlayInput {
     std::string title;                   // scene and source
 };
 
-// Enlarges the image by an integer factor to at least 960 pixels wide and adds a caption with a legend.
+// Enlarges the image by an integer factor to at least 960 pixels wide, a narrow one less (imageView()), and
+// adds a caption with a legend.
 // Regions: translucent red with hatch and outline (held regions have the opposite hatch and a dashed
 // outline). Guidance: blue cross, disc and normal. Tool: solid outline; hand: dashed; force: amber arrow. The
 // time grows with the spheres' height in pixels: 60,000 spheres of 100 pixels take less than a second. Throws

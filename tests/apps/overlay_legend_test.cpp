@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/overlay_image.h"
 #include "apps/replay/overlay_layers.h"
 
 #include <doctest/doctest.h>
@@ -47,4 +48,21 @@ TEST_CASE("The legend of an overlay names only what is inside the image") {
     CHECK(!seen.regions);
     input.tick.tool.position.x = 3.0;
     CHECK(!overlay::seenLayers(view, input).tool);
+}
+
+TEST_CASE("An overlay of a narrow image is not enlarged beyond 4096 rows, and can be drawn") {
+    struct Case {
+        uint32_t width, height;
+        int scale;
+    };
+    for (const Case& c : {Case{1, 300, 13}, Case{10, 400, 10}, Case{2, 2160, 1}, Case{240, 1024, 4}}) {
+        CAPTURE(c.width);
+        OverlayInput input;
+        input.camera.depth.width = c.width, input.camera.depth.height = c.height;
+        input.camera.depth.fx = input.camera.depth.fy = 150.0;
+        const int width = static_cast<int>(c.width), height = static_cast<int>(c.height);
+        const fathom::Image image = drawOverlay(input);
+        CHECK(image.width() == width * c.scale);
+        CHECK(image.height() == height * c.scale + 88); // and the caption
+    }
 }
