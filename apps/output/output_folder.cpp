@@ -58,6 +58,17 @@ bool isFaultFile(const std::filesystem::path& file) {
            beginsWith(file, kFaultsStart);
 }
 
+// Of every version's arm.csv: the names of the joints are between these.
+bool isArmFile(const std::filesystem::path& file) {
+    constexpr size_t kLongestHeader = 65536; // [bytes]
+    std::string text(kLongestHeader, '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<size_t>(std::max(std::streamsize{0}, in.gcount())));
+    const std::string_view header = std::string_view(text).substr(0, text.find('\n'));
+    return header.starts_with("t_s,") && header.find(",grasp,residual_m,") != std::string_view::npos;
+}
+
 void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::filesystem::path&)) {
     std::vector<std::filesystem::path> old;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -155,6 +166,13 @@ OutputLock prepareReplayFolder(const std::filesystem::path& folder, bool withFix
     } catch (const std::filesystem::filesystem_error& error) {
         throw Error(folder.string() + ": cannot use as output folder: " + error.code().message());
     }
+}
+
+std::vector<std::filesystem::path> outdatedArmFile(const std::filesystem::path& folder) {
+    const std::filesystem::path file = folder / "arm.csv";
+    std::error_code failed;
+    const bool outdated = std::filesystem::is_regular_file(file, failed) && isArmFile(file);
+    return outdated ? std::vector{file} : std::vector<std::filesystem::path>{};
 }
 
 } // namespace fathom

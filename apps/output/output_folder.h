@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace fathom {
 
@@ -30,5 +31,9 @@ private:
 // earlier replay, so that sets of two runs never mix. Only for a replay, which writes such files. Throws
 // Error that names the folder.
 OutputLock prepareReplayFolder(const std::filesystem::path& folder, bool withFixtures);
+
+// The arm.csv that an earlier replay left in `folder`, for commitTogether() of a replay without an arm; a
+// file of this name that no replay wrote is not listed.
+std::vector<std::filesystem::path> outdatedArmFile(const std::filesystem::path& folder);
 
 } // namespace fathom

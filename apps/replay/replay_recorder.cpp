@@ -228,10 +228,16 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     const ReplaySummary summary = summarise(ending);
     text.write(toJson(summary));
     std::vector<OutputFile*> files{&haptics_.file(), &frames_.file(), &traces, &overlay, &text};
+    std::vector<std::filesystem::path> outdated;
     if (armReport_) {
         files.insert(files.begin(), &armReport_->file());
+    } else {
+        outdated = outdatedArmFile(out_);
     }
-    commitTogether(files);
+    commitTogether(files, outdated);
+    if (!saveFixtures_) {
+        ::rmdir((out_ / "fixtures").c_str()); // of an earlier run; fails unless it is empty
+    }
     return summary;
 }
 

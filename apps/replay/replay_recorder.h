@@ -68,7 +68,8 @@ public:
         std::vector<std::string> warnings;   // of the camera
         std::vector<double> linkPenetration; // [m] from ToolAudit; empty = no arm or no audit
     };
-    // Writes all files, or none and throws; returns the content of summary.json.
+    // Writes all files, or none and throws; returns the content of summary.json. Removes the arm.csv and the
+    // empty fixtures/ of an earlier run where this run writes none.
     ReplaySummary finish(const Ending& ending);
 
     RunWarnings& warnings() { return watch_.warnings(); }

@@ -18,6 +18,13 @@ namespace {
 
 constexpr size_t kBufferBytes = size_t{1} << 20;
 
+void removeOld(const std::filesystem::path& file, const char* purpose) {
+    if (::unlink(file.c_str()) != 0 && errno != ENOENT) {
+        const char* reason = std::strerror(errno);
+        throw Error(file.string() + ": cannot " + purpose + ": " + reason);
+    }
+}
+
 } // namespace
 
 bool isOpenAs(int descriptor, const std::filesystem::path& name) noexcept {
@@ -130,12 +137,15 @@ void OutputFile::fail(const char* what) const {
     throw Error(path_.string() + ": " + what + ": " + std::strerror(errno));
 }
 
-void commitTogether(std::span<OutputFile* const> files) {
+void commitTogether(std::span<OutputFile* const> files, std::span<const std::filesystem::path> outdated) {
     for (OutputFile* file : files) {
         file->complete();
     }
-    if (!files.empty() && ::unlink(files.back()->path().c_str()) != 0 && errno != ENOENT) {
-        throw Error(files.back()->path().string() + ": cannot replace: " + std::strerror(errno));
+    if (!files.empty()) {
+        removeOld(files.back()->path(), "replace");
+    }
+    for (const std::filesystem::path& file : outdated) {
+        removeOld(file, "remove");
     }
     for (OutputFile* file : files) {
         file->commit();

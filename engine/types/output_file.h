@@ -50,7 +50,8 @@ private:
 };
 
 // Commits files that belong together: all are complete before the first one gets its name. The last file
-// marks a complete set: its older version is removed before. If that fails, no file is replaced.
-void commitTogether(std::span<OutputFile* const> files);
+// marks a complete set: its older version is removed before, then `outdated`: files of an older set without
+// a successor. If that fails, no file is replaced.
+void commitTogether(std::span<OutputFile* const> files, std::span<const std::filesystem::path> outdated = {});
 
 } // namespace fathom

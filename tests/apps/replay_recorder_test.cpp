@@ -68,6 +68,37 @@ TEST_CASE("A replay is rejected before it runs if one of its files cannot be wri
     }
 }
 
+TEST_CASE("A replay without an arm removes the arm.csv and the empty fixtures/ of an earlier run, once it "
+          "has succeeded, and no file of another program") {
+    const ScratchFolder out;
+    const Scene scene;
+    CameraInfo camera;
+    camera.depth = {64, 48, 60.0, 60.0, 31.5, 23.5};
+    ReplayRecorder::Ending ending;
+    ending.camera = camera;
+    ArmSetup arm;
+    arm.model.joints.push_back({"turn", false, {}, {0.0, 0.0, 1.0}, -1.0, 1.0, 1.0});
+    arm.proxy.period = 0.001;
+    ReplayRecorder(out.path(), scene, {camera, ""}, {}, true, &arm).finish(ending);
+    CHECK(std::filesystem::exists(out / "arm.csv"));
+    CHECK(std::filesystem::exists(out / "fixtures"));
+    const auto replay = [&] { ReplayRecorder(out.path(), scene, {camera, ""}, {}, false).finish(ending); };
+    {
+        const FileSizeLimit small(2000);
+        CHECK_THROWS_AS(replay(), Error);
+    }
+    CHECK(std::filesystem::exists(out / "arm.csv"));
+    replay();
+    CHECK(!std::filesystem::exists(out / "arm.csv"));
+    CHECK(!std::filesystem::exists(out / "fixtures"));
+    CHECK(std::filesystem::exists(out / "summary.json"));
+    out.write("arm.csv", "t_s,shoulder\n");
+    out.write("fixtures/notes.txt", "mine");
+    replay();
+    CHECK(out.read("arm.csv") == "t_s,shoulder\n");
+    CHECK(out.read("fixtures/notes.txt") == "mine");
+}
+
 TEST_CASE(
     "A replay reports targets by their class when an edit adds guidance classes, and when one removes them") {
     const ScratchFolder recording, out;
