@@ -24,14 +24,16 @@ struct ConvertOptions {
     std::string source, out, format = "tum", replay;
 };
 
-std::unique_ptr<FrameSink> openSink(const ConvertOptions& options, const CameraInfo& camera) {
+std::unique_ptr<FrameSink> openSink(const ConvertOptions& options, const Camera& camera) {
     const std::filesystem::path out = options.out;
     if (options.format == "tum") {
-        return std::make_unique<TumFolder>(out, camera);
+        return std::make_unique<TumFolder>(out, camera.info());
     }
-    return std::make_unique<McapRecording>(
-        out / "recording.mcap", camera,
-        options.replay.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.replay));
+    auto recording = std::make_unique<McapRecording>(out / "recording.mcap", camera.info());
+    if (!options.replay.empty()) {
+        recording->addReplay(options.replay, camera.frameCount());
+    }
+    return recording;
 }
 
 void check(const ConvertOptions& options) {
@@ -77,7 +79,7 @@ void convert(const ConvertOptions& options) {
     checkCamera(camera->info(), camera->description());
     const StopSignals signals; // until the files are complete
     const OutputLock lock(options.out);
-    const std::unique_ptr<FrameSink> sink = openSink(options, camera->info());
+    const std::unique_ptr<FrameSink> sink = openSink(options, *camera);
     const uint64_t frames = convertFrames(*camera, *sink, signals.requested());
     sink->finish();
     std::cout << "converted    " << frames << " frames, " << camera->skipped() << " skipped\n"

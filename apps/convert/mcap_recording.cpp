@@ -50,8 +50,7 @@ uint64_t messageTime(double stamp) {
            static_cast<uint64_t>(std::llround(1e9 * (stamp - whole)));
 }
 
-McapRecording::McapRecording(const std::filesystem::path& file, const CameraInfo& camera,
-                             const std::optional<std::filesystem::path>& replay)
+McapRecording::McapRecording(const std::filesystem::path& file, const CameraInfo& camera)
     : camera_(writable(file, camera))
     , writer_(file) {
     const bool aligned = camera.registered && camera.hasColour;
@@ -62,9 +61,10 @@ McapRecording::McapRecording(const std::filesystem::path& file, const CameraInfo
         colour_ = channel("/camera/color/image_raw", kImage);
         colourInfo_ = channel("/camera/color/camera_info", kInfo);
     }
-    if (replay) {
-        replay_.emplace(*replay, writer_);
-    }
+}
+
+void McapRecording::addReplay(const std::filesystem::path& folder, uint32_t sourceFrames) {
+    replay_.emplace(folder, writer_, sourceFrames);
 }
 
 uint16_t McapRecording::channel(const std::string& topic, const std::string& type) {

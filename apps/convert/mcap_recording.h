@@ -16,10 +16,10 @@ namespace fathom {
 // 32FC1 in metres. Colour is rgb8. With a replay: the topics of ReplayTopics. One thread.
 class McapRecording final : public FrameSink {
 public:
-    // replay: folder of `replay --out`. Throws BadInput for a lens that CameraInfo does not hold and for an
-    // unusable replay.
-    McapRecording(const std::filesystem::path& file, const CameraInfo& camera,
-                  const std::optional<std::filesystem::path>& replay);
+    // Throws BadInput for a lens that CameraInfo does not hold.
+    McapRecording(const std::filesystem::path& file, const CameraInfo& camera);
+    // Call before the first frame. See ReplayTopics.
+    void addReplay(const std::filesystem::path& folder, uint32_t sourceFrames);
 
     // Throws BadInput for a stamp that ROS does not hold.
     void add(const Frame& frame) override;

@@ -6,6 +6,8 @@
 #include "apps/output/fixtures_ply.h"
 #include "devices/bag/ros2_messages.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +27,21 @@ Pose poseOf(const std::vector<double>& row, size_t at) {
     return {{row[at], row[at + 1], row[at + 2]}, {row[at + 3], row[at + 4], row[at + 5], row[at + 6]}};
 }
 
+// Nothing in a replay's folder names its source. Of another one it may have too many frames.
+void checkIndices(const std::filesystem::path& file, uint32_t sourceFrames) {
+    ReplayCsv frames(file, {"index"});
+    for (auto row = frames.next(); row && sourceFrames > 0; row = frames.next()) {
+        if (!((*row)[0] < sourceFrames)) {
+            throw BadInput(file.string(), "index", significant((*row)[0], 10),
+                           "0 to " + std::to_string(sourceFrames - 1) +
+                               ": the frames of the source, which the replay must have played");
+        }
+    }
+}
+
 } // namespace
 
-ReplayTopics::ReplayTopics(const std::filesystem::path& folder, McapWriter& writer)
+ReplayTopics::ReplayTopics(const std::filesystem::path& folder, McapWriter& writer, uint32_t sourceFrames)
     : folder_(folder)
     , writer_(writer)
     , ticks_(folder / "haptics.csv",
@@ -40,7 +54,9 @@ ReplayTopics::ReplayTopics(const std::filesystem::path& folder, McapWriter& writ
     , wrench_(replayChannel(writer, "/fathom/wrench", "geometry_msgs/msg/WrenchStamped"))
     , tool_(replayChannel(writer, "/fathom/tool_pose", "geometry_msgs/msg/PoseStamped"))
     , device_(replayChannel(writer, "/fathom/device_pose", "geometry_msgs/msg/PoseStamped"))
-    , regions_(replayChannel(writer, "/fathom/regions", "sensor_msgs/msg/PointCloud2")) {}
+    , regions_(replayChannel(writer, "/fathom/regions", "sensor_msgs/msg/PointCloud2")) {
+    checkIndices(folder / "frames.csv", sourceFrames);
+}
 
 void ReplayTopics::addTick(const std::vector<double>& tick, uint64_t time) {
     constexpr size_t kWrench = 1, kTool = 7, kDevice = 14;
@@ -74,9 +90,11 @@ void ReplayTopics::frame(uint32_t index, double stamp) {
     while (played_ && (*played_)[0] < index) {
         played_ = frames_.next();
     }
+    ++frameCount_;
     if (!played_ || (*played_)[0] != index) {
         return; // the replay did not use it
     }
+    ++playedCount_;
     const Anchor now{(*played_)[1], stamp};
     ticksUntil(now.played, now);
     addRegions(index, stamp);
@@ -90,6 +108,10 @@ void ReplayTopics::end() {
     }
     const Anchor rest = *last_;
     ticksUntil(HUGE_VAL, rest);
+    if (playedCount_ < frameCount_) {
+        log::warn("{}: the replay played {} of {} frames of the source; is it of the same source?",
+                  (folder_ / "frames.csv").string(), playedCount_, frameCount_);
+    }
 }
 
 } // namespace fathom

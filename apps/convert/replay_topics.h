@@ -15,13 +15,15 @@ namespace fathom {
 // frames as they are between the frames of the replay. One thread.
 class ReplayTopics {
 public:
-    // The writer must outlive it. Throws BadInput for a folder without haptics.csv and frames.csv.
-    ReplayTopics(const std::filesystem::path& folder, McapWriter& writer);
+    // The writer must outlive it. sourceFrames: Camera::frameCount() of the source. Throws BadInput for a
+    // folder without haptics.csv and frames.csv, and for a replay of frames beyond those of the source.
+    ReplayTopics(const std::filesystem::path& folder, McapWriter& writer, uint32_t sourceFrames);
 
     // Call with each frame, in order. index: of the source; stamp [s]: its capture time. Writes the ticks
     // before it, and its regions. Throws BadInput for a damaged file.
     void frame(uint32_t index, double stamp);
-    // Writes the rest. Throws BadInput when the replay played no frame of this source.
+    // Writes the rest. Throws BadInput when the replay played no frame of this source. Warns when it did not
+    // play all frames.
     void end();
 
 private:
@@ -37,6 +39,7 @@ private:
     ReplayCsv ticks_, frames_;
     std::optional<std::vector<double>> tick_, played_; // the next rows
     std::optional<Anchor> last_;
+    uint64_t frameCount_ = 0, playedCount_ = 0; // of the source so far; those that the replay played
     uint16_t wrench_, tool_, device_, regions_;
 };
 

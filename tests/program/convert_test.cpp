@@ -141,6 +141,28 @@ TEST_CASE("MCAP holds wrench, poses and regions of a replay, between the frames 
     CHECK(regions->messages.back().time == file->find("/camera/color/image_raw")->messages.back().time);
 }
 
+TEST_CASE("convert rejects a replay of frames that its source does not have, and warns of one of fewer") {
+    const Stage stage;
+    stage.recording(movingWall());
+    stage.scene({});
+    stage.hand({{0.0, {0.0, 0.0, 0.3}}, {0.1, {0.0, 0.0, 0.6}}});
+    stage.replay({});
+    std::vector<Image> images = movingWall();
+    images.pop_back();
+    writeRecording(stage / "short", images);
+    images.resize(5, bumpImage());
+    writeRecording(stage / "long", images);
+    const std::string replay = (stage / "out").string(), mcap = (stage / "mcap").string();
+    checkRefusal(
+        {"convert", (stage / "short").string(), "--out", mcap, "--format", "mcap", "--replay", replay},
+        {"frames.csv: index: 2", "0 to 1"});
+    CHECK(!std::filesystem::exists(stage / "mcap/recording.mcap"));
+    const ProgramRun run = runFathom(
+        {"convert", (stage / "long").string(), "--out", mcap, "--format", "mcap", "--replay", replay});
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(run.err.find("frames.csv: the replay played 3 of 5 frames of the source") != std::string::npos);
+}
+
 TEST_CASE("convert rejects a live camera, a format that it does not write, and folders that hold something") {
     const Stage stage;
     stage.recording(movingWall());
