@@ -8,6 +8,8 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "engine/types/frame.h"
+#include "engine/types/log.h"
+#include "engine/types/median.h"
 
 #include <algorithm>
 
@@ -26,6 +28,35 @@ LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, R
     , trace_(trace)
     , clearance_(haptics_.period) {}
 
+void LockstepReplay::notePeriod() {
+    const uint32_t index = (*next_)->index;
+    const double stamp = (*next_)->captureTime;
+    if (index > lastIndex_ && stamp > lastStamp_ && framesDone_ > 0) {
+        periods_.push_back((stamp - lastStamp_) / (index - lastIndex_));
+    }
+    lastIndex_ = index;
+    lastStamp_ = stamp;
+}
+
+// Not one of the run's warnings: in lockstep there is nothing that --strict could ask the user to mend.
+void LockstepReplay::warnOfRate() {
+    constexpr size_t kLeast = 3;   // periods
+    constexpr double kApart = 1.5; // factor between rates
+    constexpr double kStill = 0.5; // [s] between stills, in which no speed is recorded
+    if (session_.camera->frameCount() == 0 || periods_.size() < kLeast) {
+        return;
+    }
+    const double period = medianOf(periods_), factor = period / kLockstepFramePeriod;
+    if (period > kStill) {
+        return;
+    }
+    if (factor > kApart || factor < 1.0 / kApart) {
+        log::warn("the recording has {:.3g} frames per second and is played at {:.3g}: speeds in it are "
+                  "{:.3g} times those recorded",
+                  1.0 / period, 1.0 / kLockstepFramePeriod, factor);
+    }
+}
+
 void LockstepReplay::fetch() {
     if (session_.arm) { // a frame that shows the arm is rendered now, before it is due
         taken_ = cycle_ ? cycle_->place().arm : session_.arm->startPosture();
@@ -35,6 +66,7 @@ void LockstepReplay::fetch() {
     }
     next_ = session_.camera->next();
     if (next_) {
+        notePeriod();
         nextTime_ = ((*next_)->index - session_.camera->firstFrame()) * kLockstepFramePeriod;
         next_->retime(nextTime_);
     } else {
@@ -205,6 +237,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
     play();
+    warnOfRate();
 
     ReplayRecorder::Ending ending(session_, *cycle_);
     ending.maxPenetration = audit_.figures().maxPenetration();

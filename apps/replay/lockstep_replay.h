@@ -37,6 +37,8 @@ private:
     };
 
     void fetch();       // gets the next usable frame and stamps it with its lockstep time
+    void notePeriod();  // of next_, before it has its lockstep time
+    void warnOfRate();  // logs that a recording has another rate than lockstep; call at the end
     void processNext(); // runs the frame cycle on next_
     void takeEdit(uint32_t image);
     void takeDueFrames(double t);
@@ -56,6 +58,9 @@ private:
     SteppedClearance clearance_;
 
     std::optional<Frame> next_;        // fetched, not yet due
+    std::vector<double> periods_;      // [s] per frame of a recording, by its stamps
+    double lastStamp_ = 0.0;           // [s] of next_, as recorded
+    uint32_t lastIndex_ = 0;           // of next_
     ArmPosture taken_;                 // arm posture when next_ was fetched
     std::optional<FrameReport> ready_; // processed, not yet due
     double nextTime_ = 0.0;            // [s] time of next_ or ready_

@@ -68,6 +68,31 @@ TEST_CASE("Lockstep ignores stamps: frames an hour apart run as at 30 Hz") {
     CHECK(slow.ticks.size() == 100);
 }
 
+TEST_CASE(
+    "A recording whose rate is far from 30 Hz has one line in the log, which states the change of speed") {
+    Stage stage;
+    stage.recording(lockstepFrames(6));
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    const auto logged = [&](double rate) {
+        std::string index;
+        for (int i = 0; i < 6; ++i) {
+            const std::string stamp = std::to_string(i / rate), name = std::to_string(i) + ".png ";
+            index += stamp + " rgb/00000" + name + stamp + " depth/00000" + name + "\n";
+        }
+        stage.write("rec/associations.txt", index);
+        const ProgramRun run = runFathom(stage.command({"--strict"}));
+        CHECK_MESSAGE(run.exitCode == 0, run.err);
+        return run.err;
+    };
+    CHECK(logged(30.0) == "");
+    CHECK(logged(21.0) == "");
+    CHECK(logged(1.0) == ""); // stills
+    CHECK(logged(15.0).find("the recording has 15 frames per second and is played at 30: speeds in it are 2 "
+                            "times those recorded\n") != std::string::npos);
+    CHECK(logged(90.0).find("has 90 frames per second and is played at 30: speeds in it are 0.333 times") !=
+          std::string::npos);
+}
+
 TEST_CASE("contact.delay delays an answer by as many ticks, and the active set and its age with it") {
     Stage stage;
     stage.recording(lockstepFrames(4));
