@@ -44,8 +44,8 @@ struct PassivityStep {
     dquat baseRhandle{1.0, 0.0, 0.0, 0.0}; // frame of the actuated axes
     Wrench contact;                        // reaction of the regions, unscaled, on actuated axes
     bool rows = true;                      // some row is active, or its reaction still falls
-    // The reaction grew without the hand, because new data moved a surface, or a lever may give back energy of
-    // the hand that the springs do not count.
+    // The reaction grew without the hand, because new data moved a surface, or a lever may give back energy
+    // of the hand that the springs do not count.
     bool appears = false;
     double repay = 0.033; // [s] in which the energy of such a tick is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] active: a spring beyond them stores less
