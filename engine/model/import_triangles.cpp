@@ -29,6 +29,7 @@ bool take(ReaderPipe& pipe, ImportedTriangles& out) {
 ImportedTriangles importTriangles(const std::filesystem::path& file, const ReaderOptions& options) {
     ImportedTriangles out;
     const ReaderEnd end = runReader("mesh", file, options, [&](ReaderPipe& pipe) { return take(pipe, out); });
+    refuseForeign(options, end);
     if (!end.whole) {
         out.mesh = {};
         out.fault = broken("mesh reader", end);

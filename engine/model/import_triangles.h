@@ -24,7 +24,7 @@ struct TrianglesHeader {
     uint64_t points = 0, triangles = 0;
 };
 
-// Throws Error when no process can be made.
+// Throws Error when no process can be made, and as refuseForeign().
 ImportedTriangles importTriangles(const std::filesystem::path& file, const ReaderOptions& options = {});
 
 } // namespace fathom

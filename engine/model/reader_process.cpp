@@ -172,7 +172,8 @@ ReaderEnd runReader(const std::string& kind, const std::filesystem::path& file, 
     ReaderPipe answer(pipe.reader(), until);
     std::string mark(kReaderMark.size(), ' ');
     ReaderEnd end;
-    end.whole = answer.read(mark.data(), mark.size()) && mark == kReaderMark && take(answer);
+    const bool marked = answer.read(mark.data(), mark.size()) && mark == kReaderMark;
+    end.whole = marked && take(answer);
     const bool running = !end.whole && !answer.ended(); // its answer is too late or out of bounds
     const int status = awaitEnd(process, running ? ReaderPipe::Time{} : until);
     if (WIFEXITED(status) && WEXITSTATUS(status) == kSanitizerReport) {
@@ -180,7 +181,20 @@ ReaderEnd runReader(const std::string& kind, const std::filesystem::path& file, 
     }
     end.late = answer.late();
     end.signal = !running && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    end.foreign = !marked && !end.late && end.signal == 0;
     return end;
+}
+
+void refuseForeign(const ReaderOptions& options, const ReaderEnd& end) {
+    if (!end.foreign) {
+        return;
+    }
+    const std::string allowed = std::string("the program ") + kProgram + " of this version";
+    if (!options.program.empty()) {
+        throw BadInput("options", "reader", options.program.string(),
+                       allowed + "; empty = the installed one");
+    }
+    throw Error(readerProgram().string() + ": another program (allowed: " + allowed + ")");
 }
 
 std::string broken(const std::string& reader, const ReaderEnd& end) {

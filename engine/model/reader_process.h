@@ -26,9 +26,10 @@ std::filesystem::path readerProgram();
 
 // How a reader ended.
 struct ReaderEnd {
-    bool whole = false; // take() got everything
-    bool late = false;  // killed because its time was over
-    int signal = 0;     // that ended it; 0 = none
+    bool whole = false;   // take() got everything
+    bool late = false;    // killed because its time was over
+    int signal = 0;       // that ended it; 0 = none
+    bool foreign = false; // another program: without the mark of this version, neither late nor by a signal
 };
 
 // Starts `fathom-reader KIND FILE MEMORY` and has take() read its answer. It has one minute of CPU time, no
@@ -38,6 +39,9 @@ struct ReaderEnd {
 // own code.
 ReaderEnd runReader(const std::string& kind, const std::filesystem::path& file, const ReaderOptions& options,
                     const std::function<bool(ReaderPipe&)>& take);
+
+// Throws BadInput for options.program, or Error for the installed program, if the end is foreign.
+void refuseForeign(const ReaderOptions& options, const ReaderEnd& end);
 
 // "breaks the <reader>", with the signal, or that it takes too long.
 std::string broken(const std::string& reader, const ReaderEnd& end);

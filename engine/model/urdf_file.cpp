@@ -36,6 +36,7 @@ std::shared_ptr<const UrdfModel> readUrdf(const std::filesystem::path& file, con
         model = fault.empty() ? unpackUrdf(packet) : nullptr;
         return model != nullptr || !fault.empty();
     });
+    refuseForeign(options, end);
     if (!end.whole) {
         throw BadInput(file.string(), "robot", broken("URDF reader", end), "a URDF robot");
     }

@@ -78,7 +78,8 @@ TEST_CASE("The reader's path comes from the options alone, and a wrong one is na
           "fathom-reader of this version)");
     options.reader = "/bin/true";
     CHECK(refusalOf(scene, options) ==
-          (folder / "slide.urdf").string() + ": robot: breaks the URDF reader (allowed: a URDF robot)");
+          "options: reader: /bin/true (allowed: the program fathom-reader of this version; empty = the "
+          "installed one)");
     CHECK_THROWS_AS(Engine(scene, smallCamera(), options), BadInput);
     std::ofstream(folder / "slide.urdf") << "<robot>";
     CHECK_THROWS_AS(Engine(scene, smallCamera()), BadInput);

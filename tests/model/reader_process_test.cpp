@@ -92,6 +92,20 @@ TEST_CASE("A program that is missing is named in one line") {
                          Error);
 }
 
+TEST_CASE("A program that is not fathom-reader of this version is named, not the file") {
+    for (const char* text :
+         {"exit 0", "exit 1", "printf 'fathom 0y'", "printf 'usage: ...'; cat /dev/zero"}) {
+        const Script other(text);
+        const std::string line = "options: reader: " + other.options().program.string() +
+                                 " (allowed: the program fathom-reader of this version; empty = the "
+                                 "installed one)";
+        CHECK_THROWS_WITH_AS(importTriangles("x.stl", other.options()), line.c_str(), BadInput);
+        CHECK_THROWS_WITH_AS(readUrdf("x.urdf", other.options()), line.c_str(), BadInput);
+    }
+    CHECK_FALSE(endOf(kMark).foreign);
+    CHECK_FALSE(endOf("kill -SEGV $$").foreign);
+}
+
 TEST_CASE("Answers beyond the bounds are rejected") {
     const std::string noFault = kMark + "printf '\\0\\0\\0\\0\\0\\0\\0\\0'; "; // an empty text
     const std::string huge = "printf '\\377\\377\\377\\377\\377\\377\\377\\0'; cat /dev/zero";
