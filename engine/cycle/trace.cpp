@@ -31,15 +31,20 @@ std::string arguments(const TraceDetail& detail) {
 }
 
 OutputFile openTraceFile(const std::filesystem::path& file) {
+    constexpr const char* kAllowed = "a file that can be written";
+    if (std::error_code unknown; std::filesystem::is_directory(file, unknown)) {
+        throw BadInput("trace", "file", file.string() + ": cannot replace: a folder", kAllowed);
+    }
     if (!isReplaceable(file)) {
-        throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
+        throw Error("trace: file: " + file.string() +
+                    ": cannot replace: a device or a pipe (allowed: " + kAllowed + ")");
     }
     try {
         return OutputFile(file);
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput("trace", "file", e.what(), "a file that can be written");
+        throw BadInput("trace", "file", e.what(), kAllowed);
     }
 }
 

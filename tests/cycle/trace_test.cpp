@@ -224,6 +224,13 @@ TEST_CASE("A trace that cannot be written is reported by name, and an earlier on
         "that can be written)",
         BadInput);
     TraceFile file;
+    const std::string folder = file.folder.path().string();
+    const std::string fault = ": cannot replace: a folder (allowed: a file that can be written)";
+    CHECK_THROWS_WITH_AS(Trace(file.folder.path()), ("trace: file: " + folder + fault).c_str(), BadInput);
+    CHECK_THROWS_WITH_AS(
+        Trace("/dev/full"),
+        "trace: file: /dev/full: cannot replace: a device or a pipe (allowed: a file that can be written)",
+        Error);
     std::ofstream(file.path) << "{\"traceEvents\":[]}";
     Trace trace(file.path);
     trace.track("t").instant("tick", std::chrono::steady_clock::now());
