@@ -96,13 +96,21 @@ void addCommands(CLI::App& app, fathom::GlobalOptions& global, int& result) {
     addHelpCommand(app);
 }
 
+void warnOfUnusedTrace(const CLI::App& app, const std::string& trace) {
+    const std::string command = app.get_subcommands().front()->get_name();
+    if (!trace.empty() && command != "replay" && command != "profile") {
+        spdlog::warn("{}: --trace is not used: replay and profile write a trace", command);
+    }
+}
+
 int run(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN); // a file at its size limit is then reported like a full disk
     CLI::App app("Haptic virtual fixtures from a live depth camera");
     app.require_subcommand(1);
     fathom::GlobalOptions global;
     app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
-    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and ticks");
+    app.add_option("--trace", global.trace,
+                   "replay and profile: write a Chrome trace (JSON) of passes, queries and ticks");
     app.add_flag("--validate", global.validate,
                  "enable Vulkan validation with synchronisation; any message gives exit code 1");
     app.add_flag("--hold-clock", global.holdClock,
@@ -110,14 +118,16 @@ int run(int argc, char** argv) {
     app.add_flag("-v,--verbose", global.verbose, "log more");
     app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
     app.fallthrough();
-    app.parse_complete_callback(
-        [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
+    app.parse_complete_callback([&app, &global] {
+        spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn);
+        warnOfUnusedTrace(app, global.trace);
+    });
     int result = 0;
     addCommands(app, global, result);
     fathom::refuseEmptyValues(app);
     for (CLI::App* command : app.get_subcommands(nullptr)) {
         fathom::refuseEmptyValues(*command);
-        command->footer("Options of every subcommand, such as --trace and --verbose: fathom --help");
+        command->footer("Options of every subcommand, such as --device and --verbose: fathom --help");
     }
     try {
         app.parse(argc, argv);

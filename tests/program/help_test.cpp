@@ -30,7 +30,7 @@ TEST_CASE("The help of each subcommand says where the options of every subcomman
     for (const char* command : {"replay", "operate", "guard", "plan", "profile"}) {
         CAPTURE(command);
         const std::string help = runFathom({command, "--help"}).out;
-        CHECK(help.find("\nOptions of every subcommand, such as --trace and --verbose: fathom --help\n") !=
+        CHECK(help.find("\nOptions of every subcommand, such as --device and --verbose: fathom --help\n") !=
               std::string::npos);
     }
 }
@@ -73,6 +73,21 @@ TEST_CASE("An empty output folder or scene, and a trace that cannot be written, 
     checkRefusedArguments({"replay", "apps/scenes/demo.yaml", "--out", (folder.path() / "out").string(),
                            "--trace", "/no/such/t.json"},
                           "fathom: trace: file: /no/such/t.json: cannot create: No such file");
+}
+
+TEST_CASE("Subcommands that write no trace warn that --trace is not used") {
+    const testing::ScratchFolder folder;
+    const std::string trace = (folder.path() / "t.json").string(), scene = "apps/scenes/demo.yaml";
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"plan", scene}, {"stability", "--list"}}) {
+        std::vector<std::string> words{"--trace", trace};
+        words.insert(words.end(), command.begin(), command.end());
+        const ProgramRun run = runFathom(words);
+        CHECK(run.exitCode == 0);
+        CHECK(run.err.find("warning: " + command[0] +
+                           ": --trace is not used: replay and profile write a trace\n") != std::string::npos);
+    }
+    CHECK(folder.files() == 0);
 }
 
 TEST_CASE("An option with an empty value, as from an unset shell variable, is rejected in one line") {
