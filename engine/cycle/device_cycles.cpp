@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printable.h"
 
 namespace fathom {
 
@@ -12,6 +13,9 @@ DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
     , facts_(device_ ? device_->facts() : noDevice())
     , plan_(makePlan(facts_))
     , contact_(parts.tool, parts.scene.contact.reach, parts.arm) {
+    if (device_ == nullptr && !parts.selector.empty()) {
+        log::warn("device '{}' is not used: no fixture uses points", printable(parts.selector));
+    }
     frames_ = openFrames();
     useDevice();
 }

@@ -34,7 +34,7 @@ public:
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;
 
-    // Throws BadInput, Error, DeviceFailed.
+    // Throws BadInput, Error, DeviceFailed. Warns if a selector is given without an instance.
     DeviceCycles(const Parts& parts, const MakePlan& makePlan);
 
     const Plan& plan() const { return plan_; }

@@ -29,3 +29,20 @@ TEST_CASE("A scene of placed shapes pushes in full without frames, and no warnin
     Lockstep offline(boxScene(), smallCamera(), startAt(0.5));
     CHECK_FALSE(warns(offline.step(handAt(0.5), 1'000'000), StepWarning::NoScene));
 }
+
+TEST_CASE("A device named for a scene of placed shapes alone has a warning, for it is not used") {
+    std::string lines;
+    setLogCallback([&](LogLevel level, std::string_view line) {
+        lines += level == LogLevel::Warning ? std::string(line) + "\n" : "";
+    });
+    EngineOptions options;
+    { const Engine engine(boxScene(), smallCamera(), options); }
+    CHECK(lines.empty());
+    options.computeDevice = "nosuch";
+    { const Engine engine(boxScene(), smallCamera(), options); }
+    const std::string warning = "device 'nosuch' is not used: no fixture uses points\n";
+    CHECK(lines == warning);
+    const Lockstep lockstep(boxScene(), smallCamera(), startAt(0.5), options);
+    CHECK(lines == warning + warning);
+    setLogCallback(nullptr);
+}
