@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/public.h"
 
+#include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
 #include "engine/types/printable.h"
@@ -161,8 +162,8 @@ CameraInfo internal(const v0::CameraModel& model, double farZ) {
     info.colourFormat = formatOf(model.colourFormat);
     checkKnown(place, "depthFormat", model.depthFormat, v0::DepthFormat::Metres, "Uint16 or Metres");
     checkKnown(place, "colourFormat", model.colourFormat, v0::ColourFormat::Yuyv, "None, Rgb, Rgba or Yuyv");
-    if (!(info.metresPerUnit > 0.0)) {
-        throw BadInput(place, "metresPerUnit", significant(info.metresPerUnit, 9), "a positive number");
+    if (!(info.metresPerUnit >= kLeastDepthUnit && info.metresPerUnit <= kMostDepthUnit)) {
+        throw BadInput(place, "metresPerUnit", significant(info.metresPerUnit, 9), "1e-7 to 1");
     }
     if (!isFinite(info.colourTdepth)) {
         throw BadInput(place, "colourTdepth", "not finite or without a rotation", "a pose");

@@ -70,7 +70,7 @@ void checkCamera(const CameraInfo& camera, const std::string& source) {
                          Range::between(-kFarthestColour, kFarthestColour));
         }
     }
-    check.number("depth unit", camera.metresPerUnit, Range::between(1e-7, 1.0));
+    check.number("depth unit", camera.metresPerUnit, Range::between(kLeastDepthUnit, kMostDepthUnit));
     check.number("sigma", camera.sigma, Range::between(0.0, 1.0));
     if (camera.beam) {
         check.number("beam sigma", camera.beam->range, Range::between(0.0, 1.0));

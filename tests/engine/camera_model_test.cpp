@@ -27,13 +27,15 @@ TEST_CASE("A camera model that cannot be used is rejected by one line with its n
     };
     CHECK(fault([](CameraModel&) {}) == "");
     const std::string unit = fault([](CameraModel& m) { m.metresPerUnit = 0.0; });
-    CHECK(unit.find("metresPerUnit: 0 (allowed: a positive number)") != std::string::npos);
+    CHECK(unit.find("metresPerUnit: 0 (allowed: 1e-7 to 1)") != std::string::npos);
     CHECK(fault([](CameraModel& m) { m.depth.fx = 0.0; }).find("depth: 80x60, fx 0 (allowed: ") !=
           std::string::npos);
     CHECK(std::ranges::none_of(unit, [](char c) { return c == '\n' || c == '\x1b'; }));
     const auto is = [&](void (*change)(CameraModel&), const char* text) {
         CHECK(fault(change) == std::string("camera arm  [31m: ") + text);
     };
+    is([](CameraModel& m) { m.metresPerUnit = 1e300; }, "metresPerUnit: 1e+300 (allowed: 1e-7 to 1)");
+    is([](CameraModel& m) { m.metresPerUnit = 1e-8; }, "metresPerUnit: 1e-08 (allowed: 1e-7 to 1)");
     is([](CameraModel& m) { m.depth.height = 0; }, "depth: 80x0 (allowed: a width and a height above 0)");
     is([](CameraModel& m) { m.depth.fy = 0.0; }, "depth: 80x60, fy 0 (allowed: a positive number of pixels)");
     is([](CameraModel& m) { m.depth.fx = HUGE_VAL; },
