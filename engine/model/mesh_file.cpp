@@ -26,6 +26,20 @@ std::string metres(double v) {
     return printed("%.4g m", v);
 }
 
+bool isAllowedExtent(double extent) {
+    return extent >= kMinExtent && extent <= kMaxExtent;
+}
+
+// With enough digits that it does not read as an allowed one.
+std::string refusedExtent(double extent) {
+    int digits = 4;
+    std::string text = metres(extent);
+    while (digits < 17 && isAllowedExtent(std::stod(text))) {
+        text = printed("%.*g m", ++digits, extent);
+    }
+    return text;
+}
+
 // The file's `up` axis becomes +z by the smallest rotation.
 dvec3 upright(const dvec3& p, char up) {
     if (up == 'y') {
@@ -93,8 +107,8 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrd
     }
     const dvec3 size = mesh.high() - mesh.low();
     const double extent = std::max({size.x, size.y, size.z});
-    if (!(extent >= kMinExtent && extent <= kMaxExtent)) {
-        throw BadInput(file, "size", metres(extent),
+    if (!isAllowedExtent(extent)) {
+        throw BadInput(file, "size", refusedExtent(extent),
                        extent < kMinExtent ? std::string("0.001 to 10 m; ") +
                                                  (ofUrdf ? "<mesh scale>" : "--scale") + " enlarges it"
                        : ofUrdf ? "0.001 to 10 m; <mesh scale=\"0.001 0.001 0.001\"> for millimetres, three "
