@@ -173,7 +173,7 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
     }
     if (const fs::path below = recordingBelow(folder, isRecording); !below.empty()) {
         throw BadInput(folder.string(), "folder", "no recording itself",
-                       "the one inside of it: " + below.string());
+                       "one inside of it: " + below.string());
     }
     if (const fs::path cloud = entriesOf(folder).cloud; !cloud.empty()) {
         throw BadInput(folder.string(), "folder", "a folder of point clouds",

@@ -256,8 +256,8 @@ TEST_CASE(
 TEST_CASE("A folder around a recording is refused with the recording's name, up to two levels below") {
     const TemporaryFolder folder;
     const auto names = [&](const std::string& inner) {
-        lineSays(recordingRefusal(folder.path()), "no recording itself (allowed: the one inside of it: " +
-                                                      (folder.path() / inner).string() + ")");
+        lineSays(recordingRefusal(folder.path()),
+                 "no recording itself (allowed: one inside of it: " + (folder.path() / inner).string() + ")");
     };
     folder.write("readme.txt", "unpacked");
     folder.write(".hidden/intrinsics.json", "{}");
