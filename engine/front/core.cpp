@@ -6,6 +6,7 @@
 #include "engine/scene/dead_gates.h"
 #include "engine/types/decimation.h"
 #include "engine/types/log.h"
+#include "engine/types/printed.h"
 
 #include <cmath>
 
@@ -23,6 +24,17 @@ ReaderOptions readerOf(const v0::EngineOptions& given) {
     ReaderOptions reader;
     reader.program = given.reader;
     return reader;
+}
+
+void checkStart(const char* field, const v0::Pose& pose) {
+    if (isUsable(internal(pose))) {
+        return;
+    }
+    const auto& [x, y, z] = pose.position;
+    const auto& [w, i, j, k] = pose.rotation;
+    throw v0::BadInput(printed("hand: start: %s: position (%.9g, %.9g, %.9g) m, rotation (%.9g, %.9g, %.9g, "
+                               "%.9g) (allowed: a place within 1000 km, a quaternion of non-zero length)",
+                               field, x, y, z, w, i, j, k));
 }
 
 } // namespace
@@ -48,11 +60,11 @@ HapticSide::HapticSide(const fathom::Scene& from, const CameraInfo& camera, cons
     , options(makeHapticOptions(scene, tool)) {}
 
 std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const {
+    checkStart("deviceThandle", start.deviceThandle);
     const Pose hand = internal(start.deviceThandle);
     const Pose begin = start.baseTtool ? internal(*start.baseTtool) : Pose{};
-    if (!isUsable(hand) || !isUsable(begin)) {
-        throw v0::BadInput("hand: start: a pose that is not finite or too far away (allowed: a unit "
-                           "quaternion, a place within 1000 km)");
+    if (start.baseTtool) {
+        checkStart("baseTtool", *start.baseTtool);
     }
     return std::make_unique<HapticCycle>(tool, shapes, options, hand, start.baseTtool ? &begin : nullptr,
                                          arm.get());

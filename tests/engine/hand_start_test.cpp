@@ -20,6 +20,22 @@ TEST_CASE("A start more than 1000 km away is rejected") {
     CHECK_NOTHROW(Lockstep(boxScene(), smallCamera(), startAt(-1e6)));
 }
 
+TEST_CASE("A start that is rejected is named with its field and value") {
+    HandStart start = startAt(0.5);
+    start.baseTtool = startAt(2e6).deviceThandle;
+    CHECK_THROWS_WITH_AS(
+        Lockstep(boxScene(), smallCamera(), start),
+        "hand: start: baseTtool: position (0, 0, 2000000) m, rotation (1, 0, 0, 0) (allowed: a place within "
+        "1000 km, a quaternion of non-zero length)",
+        BadInput);
+    start.deviceThandle.rotation = {0.0, 0.0, 0.0, 0.0};
+    CHECK_THROWS_WITH_AS(
+        Lockstep(boxScene(), smallCamera(), start),
+        "hand: start: deviceThandle: position (0, 0, 0.5) m, rotation (0, 0, 0, 0) (allowed: a place within "
+        "1000 km, a quaternion of non-zero length)",
+        BadInput);
+}
+
 TEST_CASE("A hand that jumps after a broken sample, or before the first one, moves no tool") {
     const auto commandAfter = [](HandPort& hand, double z) {
         Step step;
