@@ -40,9 +40,9 @@ void LockstepReplay::notePeriod() {
 
 // Not one of the run's warnings: in lockstep there is nothing that --strict could ask the user to mend.
 void LockstepReplay::warnOfRate() {
-    constexpr size_t kLeast = 3;   // periods
-    constexpr double kApart = 1.5; // factor between rates
-    constexpr double kStill = 0.5; // [s] between stills, in which no speed is recorded
+    constexpr size_t kLeast = 3;    // periods
+    constexpr double kApart = 1.51; // factor between rates: 20 and 45 frames per second are near enough
+    constexpr double kStill = 0.5;  // [s] between stills, in which no speed is recorded
     if (session_.camera->frameCount() == 0 || periods_.size() < kLeast) {
         return;
     }

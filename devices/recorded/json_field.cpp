@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 namespace fathom {
 
@@ -69,7 +70,7 @@ void refuseKeysTwice(const std::filesystem::path& file, const std::string& text)
         }
         return false;
     };
-    (void)nlohmann::json::parse(text, watch);
+    std::ignore = nlohmann::json::parse(text, watch);
 }
 
 // To a few levels: deeply nested files could overflow the stack.

@@ -25,6 +25,25 @@ double energyOf(double pull, double stiffness, double gain, double limit) {
 
 constexpr double kNoLimit = 1e300;
 
+struct Damping {
+    double anyMotion = 0.0, alongReaction = 0.0; // [N s/m]
+};
+struct Push { // of the springs, as a force or a torque
+    dvec3 sent, now;
+};
+
+// The force against a motion and its part along the reaction. A push that moves the hand out becomes weaker,
+// and never a pull. `weight`: of the motion in the metric.
+dvec3 damped(Damping d, const dvec3& motion, const dvec3& part, const Push& push, double weight = 1.0) {
+    const double square = weight * glm::dot(part, part);
+    if (glm::dot(push.sent, motion) > 0.0 && square > 0.0) {
+        const double most = std::max(0.0, glm::dot(push.now, motion)) / square;
+        d.anyMotion = std::min(d.anyMotion, most);
+        d.alongReaction = std::min(d.alongReaction, most - d.anyMotion);
+    }
+    return -(d.anyMotion * motion + d.alongReaction * part);
+}
+
 // The part of a motion along a direction; zero without one.
 dvec3 along(const dvec3& motion, const dvec3& direction) {
     const double square = glm::dot(direction, direction);
@@ -154,17 +173,18 @@ void PassivityController::rememberCredit(double credit) noexcept {
     }
 }
 
-// What a hand that moves out gets back from the springs is dissipated in proportion [W], so that the debt is
-// repaid when they are empty: the hand never leaves faster than it came.
-double PassivityController::release(const PassivityStep& tick, const dvec3& v, const dvec3& w,
+// [N s/m] What a hand that moves out gets back from the springs is dissipated in proportion, so that the debt
+// is repaid when they are empty: the hand never leaves faster than it came. `returned` [W]; `pushed`: square
+// of the speed along the reaction.
+double PassivityController::release(const PassivityStep& tick, double returned, double pushed,
                                     double owed) const noexcept {
-    const double returned = workOf(acting(), v, w);
+    if (!(returned > 0.0) || !(pushed > 0.0)) {
+        return 0.0;
+    }
     const double owes = owed / std::max(owed, stored_),
                  braked = std::clamp(2.0 * (owes - kMinDebtRatio), 0.0, owes);
-    const double kk = options_.metricRadius * options_.metricRadius;
-    const double most = kMaxRelease / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)) *
-                        (glm::dot(v, v) + kk * glm::dot(w, w));
-    return std::clamp(braked * returned, 0.0, most);
+    return std::min(braked * returned / pushed,
+                    kMaxRelease / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
 }
 
 // What new data generated is dissipated by motion along the reaction alone: a hand that slides is not braked.
@@ -192,16 +212,16 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
     const Power p = power(tick, owed, std::sqrt(speed));
-    double alpha = std::max(std::min(p.anyMotion / speed, most), release(tick, v, w, owed) / speed);
-    const dvec3 vn = along(v, acting().force), wn = along(w, acting().torque);
+    const Wrench& acting = newest();
+    const dvec3 vn = along(v, acting.force), wn = along(w, acting.torque);
     const double pushed = glm::dot(vn, vn) + kk * glm::dot(wn, wn);
-    double beta = pushed > 0.0 ? std::min(p.alongReaction / pushed, std::max(0.0, most - alpha)) : 0.0;
-    if (workOf(acting(), v, w) > 0.0 && pushed > 0.0) { // weaken the push, never pull
-        const double push = std::max(0.0, workOf(tick.contact, v, w)) / pushed;
-        alpha = std::min(alpha, push);
-        beta = std::min(beta, push - alpha);
-    }
-    Wrench damper{-tick.fadeGain * (alpha * v + beta * vn), -tick.fadeGain * kk * (alpha * w + beta * wn)};
+    Damping d;
+    d.anyMotion = std::min(p.anyMotion / speed, most);
+    d.alongReaction = pushed > 0.0 ? std::min(p.alongReaction / pushed, most - d.anyMotion) : 0.0;
+    d.alongReaction =
+        std::max(d.alongReaction, release(tick, workOf(acting, v, w), pushed, owed) - d.anyMotion);
+    Wrench damper{tick.fadeGain * damped(d, v, vn, {acting.force, tick.contact.force}),
+                  tick.fadeGain * kk * damped(d, w, wn, {acting.torque, tick.contact.torque}, kk)};
     if (!tick.rows) {
         const double left = std::clamp((kFreeTime - timeWithoutRows_) / kFreeEnd, 0.0, 1.0) * kFreeDamper,
                      size = std::sqrt(glm::dot(damper.force, damper.force) +

@@ -124,11 +124,11 @@ private:
     void rememberCredit(double credit) noexcept;
     Wrench actuated(const PassivityStep& tick, const dvec3& moved, const dvec3& turned) const noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;
-    const Wrench& acting() const noexcept { // what the springs do to the hand in the interval that ends now
+    const Wrench& newest() const noexcept { // the springs' part that was sent last
         return applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
     }
     Power power(const PassivityStep& tick, double owed, double speed) const noexcept;
-    double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
+    double release(const PassivityStep& tick, double returned, double pushed, double owed) const noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;
 
     PassivityOptions options_;

@@ -85,7 +85,8 @@ TEST_CASE(
         return run.err;
     };
     CHECK(logged(30.0) == "");
-    CHECK(logged(21.0) == "");
+    CHECK(logged(20.0) == "");
+    CHECK(logged(45.0) == "");
     CHECK(logged(1.0) == ""); // stills
     CHECK(logged(15.0).find("the recording has 15 frames per second and is played at 30: speeds in it are 2 "
                             "times those recorded\n") != std::string::npos);
