@@ -22,6 +22,10 @@ constexpr double kNewSurfaceSlowTime = 1.2; // [s] and the time constant at most
 // tick.
 constexpr double kMaxGain = 8.0, kGainMargin = 1.2, kGainKept = 0.95;
 
+double travelOf(const SurfaceNoiseInput& input) { // [m] of the hand
+    return input.stiffness > 0.0 ? input.byHand / input.stiffness : 0.0;
+}
+
 } // namespace
 
 void SurfaceNoise::settleAt(const Wrench& spring) noexcept {
@@ -49,9 +53,8 @@ void SurfaceNoise::adaptSlowTime(const SurfaceNoiseInput& input, bool contact) n
         return;
     }
     slowTime_ = std::min(kMaxSlowTime, slowTime_ + input.elapsed);
-    const double travel = input.stiffness > 0.0 ? input.byHand / input.stiffness : 0.0;
-    slowTime_ =
-        std::max(std::min(slowTime_, kNewSurfaceSlowTime), slowTime_ * (1.0 - travel / kNewSurfaceTravel));
+    slowTime_ = std::max(std::min(slowTime_, kNewSurfaceSlowTime),
+                         slowTime_ * (1.0 - travelOf(input) / kNewSurfaceTravel));
 }
 
 // After this tick.
@@ -75,8 +78,8 @@ Wrench SurfaceNoise::step(const SurfaceNoiseInput& input) noexcept {
     Part along, across;
     along.withheld = alongSpring(withheld_);
     along.mean = alongSpring(meanWithheld_);
-    const double travel = input.stiffness > 0.0 ? input.byHand / input.stiffness : 0.0;
-    across.withheld = scaled(sumOf(withheld_, along.withheld, -1.0), std::exp(-travel / kNewPlaceTravel));
+    across.withheld =
+        scaled(sumOf(withheld_, along.withheld, -1.0), std::exp(-travelOf(input) / kNewPlaceTravel));
     across.mean = sumOf(meanWithheld_, along.mean, -1.0);
     meanAlong_ += blend * (metricSize(along.withheld, k) - meanAlong_);
     meanAcross_ += blend * (metricSize(across.withheld, k) - meanAcross_);

@@ -194,7 +194,7 @@ TEST_CASE("While the force of regions that vanished fades, the damping is below 
     CHECK(braked > 0.9);
 }
 
-TEST_CASE("A hand that slides on a surface that moved towards it is not braked, and gives nothing back") {
+TEST_CASE("A hand that slides on a surface that moved towards it is not braked, nor pulled when it leaves") {
     HapticRig rig = restingRig(true), off = restingRig(false);
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall(0.015));
