@@ -10,7 +10,8 @@ namespace fathom {
 
 inline constexpr double kFarthestColour = 10.0; // [m] from the depth camera, per axis
 
-inline constexpr double kLeastDepthUnit = 1e-7, kMostDepthUnit = 1.0; // [m]
+inline constexpr double kLeastDepthUnit = 1e-7; // [m]
+inline constexpr double kMostDepthUnit = 1.0;   // [m]
 
 // Throws BadInput that names `source`, the field, its value and what is allowed: lenses whose rays or pixel
 // spacing are absurd, distances that float32 cannot hold, NaN.
