@@ -41,7 +41,7 @@ double BagCamera::sensorUnit() {
             const bool orbbec = !orbbecSensor(choice_.depth.name).empty();
             const std::string missing = std::string("no ") +
                                         (orbbec ? "depth unit in /cam/property (75 or 176)"
-                                                : "option Depth_Units beside " + choice_.depth.name) +
+                                                : "option Depth_Units next to " + choice_.depth.name) +
                                         ": depth is read as millimetres";
             log::warn("{}: {}; scale=M after the file name gives another unit{}", file_->file().string(),
                       missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");

@@ -42,7 +42,7 @@ const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, Im
         stream.infoless = stream.infoless && fault.empty();
         why = fault.empty() ? why : name + ": " + fault;
     }
-    stream.noLens = why + " (allowed: sensor_msgs/CameraInfo beside " + stream.name +
+    stream.noLens = why + " (allowed: sensor_msgs/CameraInfo next to " + stream.name +
                     ", or info=TOPIC or intrinsics=FILE after the file name)";
     return nullptr;
 }

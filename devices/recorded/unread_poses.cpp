@@ -181,7 +181,7 @@ std::string unreadPoses(const fs::path& folder, size_t images) {
                   "and rgb.txt"
             : found == kTumPoses
                 ? "copy it to poses.txt for a moving camera"
-                : "a moving camera needs poses.txt beside intrinsics.json: t x y z qx qy qz qw") +
+                : "a moving camera needs poses.txt next to intrinsics.json: t x y z qx qy qz qw") +
            ")";
 }
 

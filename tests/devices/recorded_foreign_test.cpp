@@ -273,7 +273,7 @@ TEST_CASE("A folder around a recording is refused with the recording's name, up 
 
 TEST_CASE("Poses in a file that is not read are named, and those that are read are not") {
     for (const auto& [name, advice] : {std::pair("groundtruth.txt", "copy it to poses.txt"),
-                                       {"trajectory.log", "needs poses.txt beside"},
+                                       {"trajectory.log", "needs poses.txt next to"},
                                        {"transforms.json", "needs poses.txt"},
                                        {"pose/0.txt", "pose is not read"},
                                        {"Camera_Poses.csv", "Camera_Poses.csv is not read"}}) {
