@@ -20,37 +20,37 @@ constexpr std::array<std::string_view, 35> kInfraredWords{
     "confidence", "disparity",   "reflec",   "reflectivity", "signal",    "reflectance",  "ambient",
     "noise",      "uncertainty", "variance", "temperature",  "label",     "segmentation", "semantic",
     "mask",       "instances",   "gray",     "grey",         "mono",      "fisheye",      "phase"};
-constexpr std::array<std::string_view, 31> kBesideWords{"error",
-                                                        "err",
-                                                        "std",
-                                                        "stddev",
-                                                        "sigma",
-                                                        "snr",
-                                                        "quality",
-                                                        "cost",
-                                                        "costmap",
-                                                        "elevation",
-                                                        "height",
-                                                        "normal",
-                                                        "normals",
-                                                        "surface",
-                                                        "validity",
-                                                        "age",
-                                                        "seg",
-                                                        "instance",
-                                                        "detection",
-                                                        "detections",
-                                                        "overlay",
-                                                        "panoptic",
-                                                        "classes",
-                                                        "heatmap",
-                                                        "depthvis",
-                                                        "disparitynormalized",
-                                                        "surfacenormals",
-                                                        "invdepth",
-                                                        "idepth",
-                                                        "inversedepth",
-                                                        "logdepth"};
+constexpr std::array<std::string_view, 31> kAuxiliaryWords{"error",
+                                                           "err",
+                                                           "std",
+                                                           "stddev",
+                                                           "sigma",
+                                                           "snr",
+                                                           "quality",
+                                                           "cost",
+                                                           "costmap",
+                                                           "elevation",
+                                                           "height",
+                                                           "normal",
+                                                           "normals",
+                                                           "surface",
+                                                           "validity",
+                                                           "age",
+                                                           "seg",
+                                                           "instance",
+                                                           "detection",
+                                                           "detections",
+                                                           "overlay",
+                                                           "panoptic",
+                                                           "classes",
+                                                           "heatmap",
+                                                           "depthvis",
+                                                           "disparitynormalized",
+                                                           "surfacenormals",
+                                                           "invdepth",
+                                                           "idepth",
+                                                           "inversedepth",
+                                                           "logdepth"};
 // Behind a word of depth alone: cameras and computers are called edge, too.
 constexpr std::array<std::string_view, 18> kDerivedWords{
     "gradient", "grad",       "laplacian",   "derivative", "curvature",   "residual",
@@ -62,7 +62,8 @@ constexpr std::array<std::string_view, 4> kPaintedWords{"colored", "coloured", "
 // Not in the first of several parts. "ab" is active brightness, "disp" disparity.
 constexpr std::array<std::string_view, 1> kLaterDepthWords{"z"};
 constexpr std::array<std::string_view, 3> kLaterPaintedWords{"colormap", "colourmap", "jet"};
-constexpr std::array<std::string_view, 6> kLaterBesideWords{"ab", "conf", "disp", "class", "ids", "events"};
+constexpr std::array<std::string_view, 6> kLaterAuxiliaryWords{"ab",    "conf", "disp",
+                                                               "class", "ids",  "events"};
 
 template <size_t N>
 bool among(const std::array<std::string_view, N>& words, const std::string& word) {
@@ -91,8 +92,8 @@ WordUse useAlone(const std::string& word, bool firstPart) {
     if (among(kInfraredWords, word)) {
         return WordUse::Infrared;
     }
-    if (among(kBesideWords, word) || (later && among(kLaterBesideWords, word))) {
-        return WordUse::Beside;
+    if (among(kAuxiliaryWords, word) || (later && among(kLaterAuxiliaryWords, word))) {
+        return WordUse::Auxiliary;
     }
     return among(kDerivedWords, word)    ? WordUse::Derived
            : among(kUnscaledWords, word) ? WordUse::Unscaled

@@ -14,10 +14,10 @@ enum class WordUse {
     Depth,
     Painted, // depth, in colours that a program chose
     Colour,
-    Infrared, // also amplitude, confidence, labels and the like
-    Beside,   // what programs compute beside depth, and cameras publish about it; no part of a camera's name
-    Derived,  // computed from depth, if it stands behind a word of depth: its gradient, its weights
-    Unscaled, // depth that is no metres, also if it stands in front of the word: inverse, relative
+    Infrared,  // also amplitude, confidence, labels and the like
+    Auxiliary, // computed from depth or published about it: errors, labels; no part of a camera's name
+    Derived,   // computed from depth, if it stands behind a word of depth: its gradient, its weights
+    Unscaled,  // depth that is no metres, also if it stands in front of the word: inverse, relative
 };
 
 // Plurals are alike. Some words ("z", "ab") may also be the name of a robot: they say nothing in the first of

@@ -42,23 +42,23 @@ public:
         if (last == "depth" || (last == "z" && layer.empty())) {
             return layer.empty() ? 5 : 4;
         }
-        const bool vector = beside(layer, "x") || (last != "y" && beside(layer, "y"));
+        const bool vector = siblingOf(layer, "x") || (last != "y" && siblingOf(layer, "y"));
         if (layer.ends_with("depth.") && (last == "z" || last == "r" || last == "v" || last == "y")) {
             return 4;
         }
         if (last == "z") {
             return vector ? 0 : 3;
         }
-        if (channels_.size() == 1 || (last == "y" && !beside(layer, "x") && !beside(layer, "z"))) {
+        if (channels_.size() == 1 || (last == "y" && !siblingOf(layer, "x") && !siblingOf(layer, "z"))) {
             return 2;
         }
-        return last == "r" && (alone(layer) || !beside(layer, "g")) ? 1 : 0;
+        return last == "r" && (alone(layer) || !siblingOf(layer, "g")) ? 1 : 0;
     }
 
     ExrDepth choice(size_t depth) const {
         ExrDepth chosen{depth, {}};
         for (const char* colour : {"g", "b"}) {
-            const auto other = beside(names_[depth].layer, colour);
+            const auto other = siblingOf(names_[depth].layer, colour);
             if (names_[depth].last == "r" && other) {
                 chosen.equal.push_back(*other);
             }
@@ -67,7 +67,8 @@ public:
     }
 
 private:
-    std::optional<size_t> beside(const std::string& layer, std::string_view last) const {
+    // The channel of that layer with this last name.
+    std::optional<size_t> siblingOf(const std::string& layer, std::string_view last) const {
         const auto found =
             std::ranges::find_if(names_, [&](const auto& n) { return n.layer == layer && n.last == last; });
         return found == names_.end() ? std::nullopt

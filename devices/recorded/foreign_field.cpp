@@ -81,8 +81,8 @@ bool areCoefficientWords(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 6> kCoefficientWords{"coef",   "coefs",       "coeff",
                                                                 "coeffs", "coefficient", "coefficients"};
     constexpr std::array<std::string_view, 4> kParameters{"param", "params", "parameter", "parameters"};
-    constexpr std::array<std::string_view, 8> kBeside{"lens",  "thin",    "k",      "p",
-                                                      "brown", "conrady", "opencv", ""};
+    constexpr std::array<std::string_view, 8> kNeutralWords{"lens",  "thin",    "k",      "p",
+                                                            "brown", "conrady", "opencv", ""};
     bool named = false, listed = false, dist = false, other = false;
     for (const std::string& word : words) {
         const std::string plain = word.substr(0, word.find_last_not_of("0123456789") + 1);
@@ -90,7 +90,8 @@ bool areCoefficientWords(const std::vector<std::string>& words) {
         named = named || coefficients || isAny(plain, kDistortion);
         listed = listed || coefficients || parameters;
         dist = dist || plain == "dist";
-        other = other || !(coefficients || parameters || isAny(plain, kDistortion) || isAny(plain, kBeside));
+        other = other ||
+                !(coefficients || parameters || isAny(plain, kDistortion) || isAny(plain, kNeutralWords));
     }
     return (named && !other) || (dist && listed);
 }
@@ -254,7 +255,7 @@ void refuseForeignDistortion(const JsonField& block) {
     refuseBentModel(block);
 }
 
-void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const JsonField& colour) {
+void refuseSharedDistortion(const JsonField& root, const JsonField& depth, const JsonField& colour) {
     if (depth.find(kCoefficients) && colour.find(kCoefficients)) {
         return;
     }

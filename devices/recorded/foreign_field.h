@@ -19,8 +19,8 @@ JsonField ownField(const JsonField& block, std::string_view name);
 // is a "distortion", too; and for a lens model that is no pinhole, and without coefficients.
 void refuseForeignDistortion(const JsonField& block);
 
-// The same of a file of two lenses, for fields beside its blocks, if these have no distortion of their own.
-void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const JsonField& colour);
+// The same of a file of two lenses, for fields outside its blocks, if these have no distortion of their own.
+void refuseSharedDistortion(const JsonField& root, const JsonField& depth, const JsonField& colour);
 
 // A depth scale under another name than depth_scale_m_per_unit, or in a block of depth, unless it says
 // millimetres or nothing.

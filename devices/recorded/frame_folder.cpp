@@ -107,10 +107,11 @@ struct Calibration {
     std::string unusable; // why a file of the name of one is none; empty = there is none
 };
 
-// beside: 12-Scenes has its calibration next to the folder of images, where other data sets have any text.
-bool takeCalibration(Calibration& found, const fs::path& file, bool beside) {
+// optional: skips a file that cannot be read. 12-Scenes has its calibration next to the folder of images, where
+// other data sets may have any text.
+bool takeCalibration(Calibration& found, const fs::path& file, bool optional) {
     std::error_code failed;
-    if (beside ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {
+    if (optional ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {
         return false;
     }
     std::string why = file.string() + " has no " + kDepthLens;
@@ -120,7 +121,7 @@ bool takeCalibration(Calibration& found, const fs::path& file, bool beside) {
             return true;
         }
     } catch (const BadInput& e) {
-        if (!beside) {
+        if (!optional) {
             throw;
         }
         why = e.what();

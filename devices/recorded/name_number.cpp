@@ -89,7 +89,7 @@ PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names) {
 }
 
 std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names,
-                                                    const std::vector<std::string>& beside) {
+                                                    const std::vector<std::string>& others) {
     const auto read = [](const std::vector<std::string>& all, bool decimal) {
         std::vector<std::vector<NameNumber>> numbers;
         std::ranges::transform(all, std::back_inserter(numbers),
@@ -98,7 +98,7 @@ std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::strin
     };
     std::vector<std::vector<NameNumber>> numbers = read(names, true);
     const PointDigits own = pointDigits(numbers);
-    const bool counts = own.count() || (own.mayCount() && pointDigits(read(beside, true)).count());
+    const bool counts = own.count() || (own.mayCount() && pointDigits(read(others, true)).count());
     return counts ? read(names, false) : numbers;
 }
 

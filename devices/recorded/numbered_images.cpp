@@ -84,9 +84,9 @@ std::vector<std::string> stemsOf(const std::vector<NamedFile>& files) {
     return stems;
 }
 
-// beside: the files of the other kind; points in both kinds of names mean the same.
-std::vector<NamedImage> imagesOf(const std::vector<NamedFile>& files, const std::vector<NamedFile>& beside) {
-    std::vector<ImageKey> numbers = numbersInNames(stemsOf(files), stemsOf(beside));
+// others: the files of the other kind; points in both kinds of names mean the same.
+std::vector<NamedImage> imagesOf(const std::vector<NamedFile>& files, const std::vector<NamedFile>& others) {
+    std::vector<ImageKey> numbers = numbersInNames(stemsOf(files), stemsOf(others));
     std::vector<NamedImage> found;
     for (size_t i = 0; i < files.size(); ++i) {
         ImageKey& all = numbers[i];

@@ -78,7 +78,7 @@ void readTwoLenses(const JsonField& root, const JsonField& colour, const std::st
     CameraInfo& camera = intrinsics.camera;
     camera.depth = readLens(root.at("depth"), intrinsics);
     camera.colour = readLens(colour, intrinsics);
-    refuseDistortionBeside(root, root.at("depth"), colour);
+    refuseSharedDistortion(root, root.at("depth"), colour);
     const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
     camera.registered = registered && registered->boolean();
     if (!camera.registered) {

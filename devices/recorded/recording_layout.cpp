@@ -145,7 +145,7 @@ RecordingLayout readIndexedOpen3d(const fs::path& folder, const fs::path& mark,
 struct KnownLayout {
     const char* mark; // file that only this layout has
     RecordingLayout (*read)(const LayoutRequest&);
-    const char* beside = ""; // folder without which the mark is that of another program
+    const char* companion = ""; // folder without which the mark is that of another program
 };
 constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
                               KnownLayout{"intrinsic.json", readOpen3d},
@@ -157,7 +157,7 @@ constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
 // read: null for none of them.
 KnownLayout layoutOf(const fs::path& folder) {
     for (const KnownLayout& layout : kLayouts) {
-        if (fs::exists(folder / layout.mark) && fs::exists(folder / layout.beside)) {
+        if (fs::exists(folder / layout.mark) && fs::exists(folder / layout.companion)) {
             return layout;
         }
     }

@@ -15,7 +15,7 @@ struct V4l2Camera::Streams {
     std::atomic<uint32_t> leased{0}; // depth buffers leased by frames
 
     Streams(ChosenNodes nodes, const StreamRequest& depthRequest, const StreamRequest& colourRequest)
-        : metadata(MetadataStream::beside(nodes.depth))
+        : metadata(MetadataStream::openFor(nodes.depth))
         , depth(std::move(nodes.depth), depthRequest) {
         if (nodes.colour) {
             colour.emplace(std::move(*nodes.colour), colourRequest);

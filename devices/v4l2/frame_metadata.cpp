@@ -35,7 +35,7 @@ v4l2_buffer metadataBuffer(uint32_t index) {
 }
 
 // The driver creates it right after the video node: the next number of the same interface.
-fs::path nodeBeside(const fs::path& video) {
+fs::path metadataNodeOf(const fs::path& video) {
     constexpr unsigned long kFar = 8; // other devices may use the numbers in between
     const std::string name = video.filename().string();
     const auto deviceOf = [](const std::string& node) {
@@ -85,8 +85,8 @@ std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
     return std::nullopt;
 }
 
-std::unique_ptr<MetadataStream> MetadataStream::beside(const VideoNode& video) {
-    const fs::path file = nodeBeside(video.file());
+std::unique_ptr<MetadataStream> MetadataStream::openFor(const VideoNode& video) {
+    const fs::path file = metadataNodeOf(video.file());
     const int descriptor = file.empty() ? -1 : ::open(file.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0) {
         return nullptr;

@@ -24,7 +24,7 @@ class MetadataStream {
 public:
     // Opens the metadata of that video node. nullptr when the kernel has no such node, or not in D4XX format
     // (a kernel that does not list the camera delivers plain payload headers).
-    static std::unique_ptr<MetadataStream> beside(const VideoNode& video);
+    static std::unique_ptr<MetadataStream> openFor(const VideoNode& video);
     ~MetadataStream();
     MetadataStream(const MetadataStream&) = delete;
     MetadataStream& operator=(const MetadataStream&) = delete;

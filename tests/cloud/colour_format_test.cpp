@@ -19,7 +19,7 @@ CameraInfo sends(ColourFormat format, CameraInfo camera) {
 }
 
 // A second camera of another size, 50 mm to the side.
-CameraInfo beside(CameraInfo camera) {
+CameraInfo secondCamera(CameraInfo camera) {
     camera.registered = false;
     camera.colour.width = 203, camera.colour.height = 75;
     camera.colour.cx = 100.7, camera.colour.cy = 36.2;
@@ -174,7 +174,7 @@ TEST_CASE("Every image has the classes of its host-unpacked colours, to the last
 }
 
 TEST_CASE("Colours looked up in another camera's image equal those of the unpacked image") {
-    const CameraInfo camera = beside(pinholeCamera(160, 120));
+    const CameraInfo camera = secondCamera(pinholeCamera(160, 120));
     checkAllFormats(gates(), camera);
 }
 

@@ -11,7 +11,7 @@ const std::string kOwnColour = "/camera/color/image_raw", kOwnDepth = "/camera/d
 const std::array<double, 4> kColourLens{6.0, 6.0, 3.5, 2.5};
 
 // A camera whose depth and colour are related by tf, with one more topic that has colour's or depth's lens.
-BagMaker besideCamera(const std::string& topic, bool likeDepth) {
+BagMaker cameraWithTopic(const std::string& topic, bool likeDepth) {
     BagMaker maker;
     addStream(maker, kOwnColour, redImage("color"), {.frame = "color", .k = kColourLens});
     addStream(maker, kOwnDepth, depthImage(600, "depth"), {.frame = "depth"});
@@ -44,7 +44,7 @@ TEST_CASE("Labels and overlays with a camera's frame and lens are not played ins
              {"/seg/image", "/detector/instance/image", "/yolo/detections/image", "/detector/overlay/image",
               "/tracker/image", "/camera/heatmap/image", "/camera/overlay/image", "/camera/panoptic"}) {
             CAPTURE(topic);
-            BagCamera camera = playStreams(folder, besideCamera(topic, likeDepth));
+            BagCamera camera = playStreams(folder, cameraWithTopic(topic, likeDepth));
             CHECK(camera.streamOptions() == ",depth=" + kOwnDepth + ",colour=" + kOwnColour);
             CHECK(firstDepth(camera) == doctest::Approx(0.6));
             CHECK_FALSE(camera.info().registered);
