@@ -107,7 +107,7 @@ private:
     uint64_t generation_ = 0;           // of the regions handed over
     // Thread of this class.
     std::chrono::steady_clock::time_point tickAt_; // of the newest tick
-    bool moves_ = false;                           // ticks came since the robot was told to rest
+    bool moves_ = false;                           // ticks came since the last rest message
     // Between the threads.
     SpscQueue<Ros2Tick> ticks_{kQueue};
     TripleBuffer<Ros2Regions> regions_;

@@ -128,7 +128,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
     // Whatever a tick generates in which new data moves the tool comes from the new data. A lever gives back
     // as a force what the hand put in as a torque that the device does not render, and so does an arm at the
-    // limit of a joint: that is no new energy, but cannot be told from it.
+    // limit of a joint: that is no new energy, but cannot be distinguished from it.
     const bool lever = glm::length(reaction.torque - tick.contact.torque) > kMinFelt ||
                        glm::length(reaction.torque) > tick.torqueLimit || (input.pushes & cause::kJoint) != 0;
     tick.appears = reaction_.appears() || input.newData || input.escape || lever;

@@ -248,19 +248,19 @@ TEST_CASE("A file of one lens replaces that of depth, and keeps how the bag rela
     const TemporaryFolder folder;
     const std::string lens = R"("width": 8, "height": 6, "fx": 9, "fy": 9, "cx": 3.5, "cy": 2.5)";
     folder.write("one.json", "{" + lens + "}");
-    folder.write("told.json", "{" + lens + R"(, "registered_to_color": true})");
+    folder.write("registered.json", "{" + lens + R"(, "registered_to_color": true})");
     const SourceOptions one{.intrinsics = folder.path() / "one.json"},
-        told{.intrinsics = folder.path() / "told.json"};
+        registered{.intrinsics = folder.path() / "registered.json"};
     BagMaker apart = unrelatedBag("depth", "color");
     CHECK(lineSays(streamRefusal(folder, apart, one), "color: missing (allowed: blocks depth and color"));
-    CHECK(playStreams(folder, apart, told).info().registered);
+    CHECK(playStreams(folder, apart, registered).info().registered);
     apart.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth", "color", 0.005));
     const CameraInfo kept = playStreams(folder, apart, one).info();
     CHECK_FALSE(kept.registered);
     CHECK(kept.depth.fx == 9.0);
     CHECK(kept.colour.fx == 7.0);
     CHECK(kept.colourTdepth.position.x == doctest::Approx(-0.005));
-    CHECK(playStreams(folder, apart, told).info().registered);
+    CHECK(playStreams(folder, apart, registered).info().registered);
     const CameraInfo same =
         playStreams(folder, unrelatedBag("depth", "depth", {.frame = "depth"}), one).info();
     CHECK(same.registered);

@@ -219,5 +219,5 @@ TEST_CASE("A file that is not a serial port is rejected in one line") {
     CHECK(refusal("/dev/null", 1234).find("115200") != std::string::npos);
     Rig rig;
     CHECK_NOTHROW(
-        SerialPort(rig.line.name(), 115200, true)); // no direction control there: told, and no error
+        SerialPort(rig.line.name(), 115200, true)); // no direction control there: logged, and no error
 }

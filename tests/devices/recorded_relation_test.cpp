@@ -36,9 +36,9 @@ void checkKept(const TemporaryFolder& folder, double x) {
     CHECK(kept.colour.fx == 5.0);
     CHECK_FALSE(kept.registered);
     CHECK(kept.colourTdepth.position.x == x);
-    const CameraInfo told = playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})");
-    CHECK(told.colour.fx == 9.0);
-    CHECK(told.registered);
+    const CameraInfo stated = playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})");
+    CHECK(stated.colour.fx == 9.0);
+    CHECK(stated.registered);
     CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
 }
 

@@ -38,16 +38,16 @@ TEST_CASE("A file of one lens for depth without a lens keeps the recorded relati
     const TemporaryFolder folder;
     const std::string lens = R"("width": 8, "height": 6, "fx": 7, "fy": 7, "cx": 3.5, "cy": 2.5)";
     folder.write("one.json", "{" + lens + "}");
-    folder.write("told.json", "{" + lens + R"(, "registered_to_color": true})");
+    folder.write("registered.json", "{" + lens + R"(, "registered_to_color": true})");
     folder.write("british.json", "{" + lens + R"(, "registered_to_colour": true})");
     const SourceOptions one{.intrinsics = folder.path() / "one.json"},
-        told{.intrinsics = folder.path() / "told.json"},
+        registered{.intrinsics = folder.path() / "registered.json"},
         british{.intrinsics = folder.path() / "british.json"};
     checkApart(playStreams(folder, lenslessDepth("depth", kOtherLens, true), one).info());
     const BagMaker unrelated = lenslessDepth("depth", kOtherLens, false);
     lineSays(streamRefusal(folder, unrelated, one),
              "color: missing (allowed: blocks depth and color, or registered_to_color: true");
-    CHECK(playStreams(folder, unrelated, told).info().registered);
+    CHECK(playStreams(folder, unrelated, registered).info().registered);
     CHECK(playStreams(folder, unrelated, british).info().registered);
     CHECK(playStreams(folder, lenslessDepth("depth", kOtherLens, true), british).info().registered);
     // Depth in colour's frame is registered to it if the file has nearly colour's lens.

@@ -43,8 +43,8 @@ int cuDeviceGetUuid(void* bytes, int device) { // only the second device has tha
     const char* const id = setting("FAKE_CUDA_ID");
     auto* const out = static_cast<unsigned char*>(bytes);
     for (size_t i = 0; i < 16; ++i) {
-        const bool told = device == 1 && std::strlen(id) == 32;
-        out[i] = told ? static_cast<unsigned char>(nibble(id[2 * i]) << 4 | nibble(id[2 * i + 1])) : 0xee;
+        const bool known = device == 1 && std::strlen(id) == 32;
+        out[i] = known ? static_cast<unsigned char>(nibble(id[2 * i]) << 4 | nibble(id[2 * i + 1])) : 0xee;
     }
     return 0;
 }

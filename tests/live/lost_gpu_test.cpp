@@ -33,12 +33,12 @@ double deepest(const Replay& replay) {
 
 // Every set that a tick obeys has a row in frames.csv.
 void checkRecorded(const Replay& replay) {
-    std::set<int64_t> told;
+    std::set<int64_t> recorded;
     for (const FrameRow& row : replay.frames) {
-        told.insert(row.index);
+        recorded.insert(row.index);
     }
     for (const Tick& tick : replay.ticks) {
-        CHECK((tick.frame < 0 || told.count(tick.frame) == 1));
+        CHECK((tick.frame < 0 || recorded.count(tick.frame) == 1));
     }
 }
 

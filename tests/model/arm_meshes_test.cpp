@@ -95,9 +95,9 @@ TEST_CASE("A mesh is not taken from a folder whose package.xml names another pac
         return testing::refusalOf([&] { loadArm(folder / "cell/urdf/arm.urdf"); });
     };
     const std::string other = "<?xml version='1.0'?>\n<package format='3'>\n<name>\n cell </name></package>";
-    const std::string beside =
+    const std::string relative =
         "<collision><geometry><mesh filename='../meshes/base.obj'/></geometry></collision>";
-    for (const std::string& more : {std::string(), beside}) {
+    for (const std::string& more : {std::string(), relative}) {
         const std::string fault = faultWith(other, more);
         CHECK_MESSAGE(fault.find("/cell/meshes/base.obj (of package cell)") != std::string::npos, fault);
     }
@@ -110,7 +110,7 @@ TEST_CASE("A mesh is not taken from a folder whose package.xml names another pac
                std::string::npos;
     }));
     CHECK(faultWith("<package><name> arm\n</name></package>", "") == "");
-    CHECK(faultWith("<package/>", beside) == "");
+    CHECK(faultWith("<package/>", relative) == "");
 }
 
 TEST_CASE(
@@ -157,9 +157,10 @@ TEST_CASE("An arm's meshes that are not closed are reported once") {
                                      << shape(open) << "</link></robot>";
     for (int start = 0; start < 2; ++start) { // the second from the cache
         const auto notes = loadArm(folder / "r.urdf").notes;
-        const std::string told =
+        const std::string expected =
             "meshes that are not closed and are covered at their surface only: 2, the first on link a";
-        CHECK(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note == told; }));
+        CHECK(std::any_of(notes.begin(), notes.end(),
+                          [&](const std::string& note) { return note == expected; }));
     }
 }
 
@@ -169,7 +170,7 @@ TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     std::filesystem::copy_file(one.path(), folder / "one.obj");
     std::filesystem::copy_file(one.path(), folder / "two.obj");
-    std::filesystem::copy_file(one.path(), folder / "urdf/beside.obj");
+    std::filesystem::copy_file(one.path(), folder / "urdf/inside.obj");
     const auto shape = [](const std::string& name) {
         return "<collision><geometry><mesh filename='package://" + name + "'/></geometry></collision>";
     };
@@ -179,9 +180,9 @@ TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
         return loadArm(file).notes;
     };
     std::filesystem::create_symlink("../one.obj", folder / "urdf/link.obj");
-    CHECK(notes(shape("beside.obj")).empty());
+    CHECK(notes(shape("inside.obj")).empty());
     CHECK(notes(shape("link.obj")).size() == 1);
-    const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
-    REQUIRE(told.size() == 1);
-    CHECK(told[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
+    const auto reported = notes(shape("two.obj") + shape("one.obj") + shape("inside.obj") + shape("one.obj"));
+    REQUIRE(reported.size() == 1);
+    CHECK(reported[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
 }

@@ -21,10 +21,10 @@ std::string readObj(const std::string& text) {
     try {
         const TriangleMesh mesh = loadMesh(file.path()).mesh;
         const dvec3 size = 1e3 * (mesh.high() - mesh.low());
-        char told[80];
-        std::snprintf(told, sizeof told, "%zu: %.3g %.3g %.3g", mesh.triangles.size(), size.x, size.y,
+        char summary[80];
+        std::snprintf(summary, sizeof summary, "%zu: %.3g %.3g %.3g", mesh.triangles.size(), size.x, size.y,
                       size.z);
-        return told;
+        return summary;
     } catch (const BadInput& e) {
         return e.what();
     }

@@ -40,9 +40,9 @@ TEST_CASE("Intrinsics of a live camera outside the scene's folder are reported, 
         const ProgramRun run = runFathom({"plan", (stage / "scene.yaml").string()});
         CAPTURE(run.err);
         CHECK(run.exitCode != 0);
-        const bool told =
+        const bool reported =
             run.err.find("'" + path + "' is outside the scene file's folder") != std::string::npos;
-        CHECK(told == (path != "lens.json"));
+        CHECK(reported == (path != "lens.json"));
     }
 }
 

@@ -60,16 +60,16 @@ ArmSetpoint setpoint(double a, double b, double c, double grasp = 0.0) {
 TEST_CASE("Joints map to axes and back, by sign and zero, and the grasp maps to the travel of the jaws") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
-    const ArmStatus told = follower.exchange(1.0, setpoint(0.1, 0.2, 0.3, 0.25), 0.0);
-    CHECK(told.state == ArmState::Follows);
+    const ArmStatus status = follower.exchange(1.0, setpoint(0.1, 0.2, 0.3, 0.25), 0.0);
+    CHECK(status.state == ArmState::Follows);
     CHECK(arm.state.position[2] == doctest::Approx(0.4));
     CHECK(arm.state.position[0] == doctest::Approx(0.2));
     CHECK(arm.state.position[1] == doctest::Approx(0.55));
     CHECK(arm.state.position[4] == doctest::Approx(0.015));
-    CHECK(told.posture.q[0] == doctest::Approx(0.1));
-    CHECK(told.posture.q[2] == doctest::Approx(0.3));
-    CHECK(told.posture.grasp == doctest::Approx(0.25));
-    CHECK(told.lag < 1e-9);
+    CHECK(status.posture.q[0] == doctest::Approx(0.1));
+    CHECK(status.posture.q[2] == doctest::Approx(0.3));
+    CHECK(status.posture.grasp == doctest::Approx(0.25));
+    CHECK(status.lag < 1e-9);
 }
 
 TEST_CASE("An arm without driven jaws reports no grasp, and its jaws stay where they are") {

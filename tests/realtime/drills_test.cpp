@@ -21,7 +21,7 @@ struct Fade {
     double gone = -1.0;   // [s] from the last frame until there is no force; -1 = always some
     double back = -1.0;   // [s] from the next frame until the force is full; -1 = not tested
     double deepest = 0.0; // [m] penetration
-    bool told = true;     // the state was `fading` exactly while the scene was too old
+    bool marked = true;   // the state was `fading` exactly while the scene was too old
 };
 
 // No force steps beyond the slew limit, and none is left when the frame is 0.61 s old. Where periods were
@@ -56,7 +56,7 @@ Fade stallCamera(double stall, bool comesBack) {
         }
         const StepRecord record = rig.step();
         const double force = forceOf(record);
-        fade.told = fade.told && (record.state == StepState::Fading) == (record.sceneAge > kStaleAfter);
+        fade.marked = fade.marked && (record.state == StepState::Fading) == (record.sceneAge > kStaleAfter);
         fade.deepest = std::max(fade.deepest, -rig.gap());
         return force;
     };
@@ -98,7 +98,7 @@ TEST_CASE("Drill: a camera that stalls for 100 ms changes no force") {
     CHECK(fade.untouched == doctest::Approx(0.1));
     CHECK(fade.gone < 0.0);
     CHECK(fade.deepest < 1e-5);
-    CHECK(fade.told);
+    CHECK(fade.marked);
 }
 
 TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 610 ms, and it is back 0.51 s after "
@@ -110,7 +110,7 @@ TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 610 ms, a
     CHECK(fade.back > 0.2); // the limit of 20 N rises within 0.5 s
     CHECK(fade.back <= 0.51);
     CHECK(fade.deepest < 1e-5);
-    CHECK(fade.told);
+    CHECK(fade.marked);
 }
 
 TEST_CASE("Drill: a camera that stalls for 1 s under threads logs when forces fade and when they return") {
@@ -142,7 +142,7 @@ TEST_CASE("Drill: a camera that stalls forever leaves no force, and the tool sti
     const Fade fade = stallCamera(20.0, false);
     CHECK(fade.gone <= 0.61);
     CHECK(fade.deepest < 1e-5);
-    CHECK(fade.told);
+    CHECK(fade.marked);
 }
 
 TEST_CASE(

@@ -145,10 +145,10 @@ TEST_CASE("A spooled camera returns exactly the frames of its source, once, and 
     const auto folder = scratch.path() / "spool";
     std::filesystem::create_directories(folder);
     std::atomic<bool> stop{false};
-    uint64_t told = 0;
+    uint64_t reported = 0;
     SpooledCamera spooled(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
-                          [&](uint64_t frames) { told = frames; });
-    CHECK(told == 5);
+                          [&](uint64_t frames) { reported = frames; });
+    CHECK(reported == 5);
     CHECK(std::filesystem::is_empty(folder));
     while (auto wanted = plain.next()) {
         const auto frame = spooled.next();
