@@ -58,7 +58,7 @@ std::string readWithAssimp(const std::filesystem::path& file, const std::string&
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = [&] {
-        const ParserAtWork parser;
+        const ParserScope parser;
         constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
         return instead.empty() ? importer.ReadFile(file.string(), kSteps)
                                : importer.ReadFileFromMemory(instead.data(), instead.size(), kSteps,

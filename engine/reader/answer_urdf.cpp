@@ -217,7 +217,7 @@ std::string packetOf(const std::filesystem::path& file) {
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withNormalisedTags(text);
     const Listener listener;
     const std::shared_ptr<urdf::ModelInterface> model = [&] {
-        const ParserAtWork parser;
+        const ParserScope parser;
         return urdf::parseURDF(textForParser(text, file.string()));
     }();
     if (!model) {

@@ -14,12 +14,12 @@ bool answerUrdf(const std::filesystem::path& file, int pipe, uint64_t mostMemory
 
 // While one exists, a parser runs: a sanitizer report is then the parser's fault and rejects the file, as a
 // crash does.
-class ParserAtWork {
+class ParserScope {
 public:
-    ParserAtWork() noexcept { ++count; }
-    ~ParserAtWork() { --count; }
-    ParserAtWork(const ParserAtWork&) = delete;
-    ParserAtWork& operator=(const ParserAtWork&) = delete;
+    ParserScope() noexcept { ++count; }
+    ~ParserScope() { --count; }
+    ParserScope(const ParserScope&) = delete;
+    ParserScope& operator=(const ParserScope&) = delete;
 
     static inline int count = 0; // the reader has one thread
 };

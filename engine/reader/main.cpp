@@ -42,7 +42,7 @@ void limit(uint64_t mostMemory) {
     }
 #ifdef FATHOM_SANITIZED
     __sanitizer_set_death_callback([] {
-        if (fathom::ParserAtWork::count == 0) {
+        if (fathom::ParserScope::count == 0) {
             ::_exit(fathom::kSanitizerReport);
         }
     });

@@ -21,7 +21,7 @@ constexpr int kMaxIncludes = 64;
 
 const tinyxml2::XMLElement& parse(tinyxml2::XMLDocument& document, const std::string& file,
                                   const std::string& text) {
-    const ParserAtWork parser;
+    const ParserScope parser;
     if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
         document.RootElement() == nullptr) {
         throw BadInput(file, "line " + std::to_string(document.ErrorLineNum()),
