@@ -75,18 +75,18 @@ CameraPort::Impl::UsedCopy CameraPort::Impl::unused() {
 }
 
 void CameraPort::Impl::copyDepth(const Frame& frame, Copy& copy) const {
-    copy.depth.resize(side.delivered.depth.pixels());
+    copy.depth.resize(setup.delivered.depth.pixels());
     if (model.depthFormat == DepthFormat::Metres) {
         copyMetres(frame, copy);
     } else {
         std::memcpy(copy.depth.data(), frame.depth, copy.depth.size() * sizeof(uint16_t));
     }
-    if (side.decimation > 1) {
-        decimate<uint16_t>(copy.depth, side.delivered.depth, side.decimation, copy.depth);
+    if (setup.decimation > 1) {
+        decimate<uint16_t>(copy.depth, setup.delivered.depth, setup.decimation, copy.depth);
         copy.depth.resize(info.depth.pixels());
     }
-    if (side.correction) {
-        side.correction->apply(copy.depth, copy.depth);
+    if (setup.correction) {
+        setup.correction->apply(copy.depth, copy.depth);
     }
 }
 
@@ -100,19 +100,19 @@ void CameraPort::Impl::copyMetres(const Frame& frame, Copy& copy) const {
 }
 
 std::span<const std::byte> CameraPort::Impl::colourOf(const Frame& frame) const {
-    const CameraInfo& all = side.delivered;
+    const CameraInfo& all = setup.delivered;
     return {static_cast<const std::byte*>(frame.colour), all.hasColour ? all.colourBytes() : 0};
 }
 
 void CameraPort::Impl::copyColour(const Frame& frame, Copy& copy) const {
-    const CameraInfo& all = side.delivered;
+    const CameraInfo& all = setup.delivered;
     const std::span<const std::byte> colour = colourOf(frame);
-    if (side.decimation == 1 || !all.hasColour || !all.registered) {
+    if (setup.decimation == 1 || !all.hasColour || !all.registered) {
         copy.colour.assign(colour.begin(), colour.end());
         return;
     }
     copy.colour.resize(info.colourBytes());
-    decimateColour({all.colourFormat, all.colour.width, all.colour.height, colour}, side.decimation,
+    decimateColour({all.colourFormat, all.colour.width, all.colour.height, colour}, setup.decimation,
                    {reinterpret_cast<uint32_t*>(copy.colour.data()), info.colour.pixels()});
 }
 
@@ -126,12 +126,12 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
     rotation = std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-14 ? rotation : glm::normalize(rotation);
     content.raw = {info.colourFormat, info.colour.width, info.colour.height, {}};
     const bool converted =
-        model.depthFormat == DepthFormat::Metres || side.correction.has_value() || side.decimation > 1;
-    std::function<void()> giveBack;
+        model.depthFormat == DepthFormat::Metres || setup.correction.has_value() || setup.decimation > 1;
+    std::function<void()> onRelease;
     if (release && !converted) {
         content.depth = {static_cast<const uint16_t*>(frame.depth), info.depth.pixels()};
         content.setColourBytes(colourOf(frame));
-        giveBack = std::move(release);
+        onRelease = std::move(release);
     } else {
         const fathom::Frame lent({}, std::move(release)); // given back once it is copied, or memory is short
         UsedCopy copy = unused();
@@ -139,9 +139,9 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
         copyColour(frame, *copy);
         content.depth = copy->depth;
         content.setColourBytes(copy->colour);
-        giveBack = [used = copy.release()] { GiveBack()(used); };
+        onRelease = [used = copy.release()] { CopyRelease()(used); };
     }
-    return fathom::Frame(content, std::move(giveBack));
+    return fathom::Frame(content, std::move(onRelease));
 }
 
 SubmitStatus CameraPort::Impl::put(const Frame& frame, std::function<void()> release) {

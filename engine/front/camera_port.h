@@ -15,8 +15,8 @@
 namespace fathom::v0 {
 
 struct CameraPort::Impl {
-    explicit Impl(front::CameraSide made)
-        : side(std::move(made)) {}
+    explicit Impl(front::CameraSetup made)
+        : setup(std::move(made)) {}
 
     // Camera thread. Copies the frame if `release` is empty; otherwise borrows it if the formats allow. Calls
     // release() exactly once.
@@ -30,9 +30,9 @@ struct CameraPort::Impl {
     // Any thread. Drops the waiting frame; take() returns nothing from now on.
     void close();
 
-    const front::CameraSide side;
-    const CameraModel& model = side.model;
-    const CameraInfo& info = side.info;
+    const front::CameraSetup setup;
+    const CameraModel& model = setup.model;
+    const CameraInfo& info = setup.info;
     std::atomic<uint64_t> dropped{0}, processed{0};
     Nanoseconds last = 0; // camera thread: stamp of the newest frame; 0 = any stamp may follow
 
@@ -42,10 +42,10 @@ private:
         std::vector<std::byte> colour;
         std::atomic<bool> used{false};
     };
-    struct GiveBack {
+    struct CopyRelease {
         void operator()(Copy* copy) const noexcept { copy->used.store(false, std::memory_order_release); }
     };
-    using UsedCopy = std::unique_ptr<Copy, GiveBack>;
+    using UsedCopy = std::unique_ptr<Copy, CopyRelease>;
     size_t depthAlignment() const noexcept {
         return model.depthFormat == DepthFormat::Metres ? sizeof(float) : sizeof(uint16_t);
     }

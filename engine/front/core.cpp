@@ -39,7 +39,7 @@ void checkStart(const char* field, const v0::Pose& pose) {
 
 } // namespace
 
-CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
+CameraSetup::CameraSetup(const v0::CameraModel& given, const fathom::Scene& scene)
     : model(given)
     , delivered(internal(given, scene.farZ))
     , decimation(scene.decimation)
@@ -52,14 +52,14 @@ CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
     }
 }
 
-HapticSide::HapticSide(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given)
+HapticSetup::HapticSetup(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given)
     : scene(withSigma(from, camera))
     , arm(openArm(scene, readerOf(given)))
     , tool(openTool(scene, arm.get(), readerOf(given)))
     , shapes(shapesOf(scene))
     , options(makeHapticOptions(scene, tool)) {}
 
-std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const {
+std::unique_ptr<HapticCycle> HapticSetup::cycle(const v0::HandStart& start) const {
     checkStart("deviceThandle", start.deviceThandle);
     const Pose hand = internal(start.deviceThandle);
     const Pose begin = start.baseTtool ? internal(*start.baseTtool) : Pose{};
@@ -70,8 +70,8 @@ std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const
                                          arm.get());
 }
 
-ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const std::string& device)
-    : haptic(side)
+ComputeState::ComputeState(const HapticSetup& setup, const CameraInfo& camera, const std::string& device)
+    : haptic(setup)
     , instance(haptic.scene.hasPoints() ? std::make_unique<gpu::Instance>() : nullptr)
     , cycles({instance.get(), device, haptic.scene, camera, haptic.tool, haptic.arm.get()},
              [&](const DeviceFacts& facts) {
@@ -93,14 +93,14 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
     }
 }
 
-FrameReport ComputeSide::process(fathom::Frame&& frame) {
+FrameReport ComputeState::process(fathom::Frame&& frame) {
     if (!checked_) {
         check(frame);
     }
     return cycles.frames().process(std::move(frame));
 }
 
-void ComputeSide::check(const fathom::Frame& frame) {
+void ComputeState::check(const fathom::Frame& frame) {
     const double time = frame->captureTime;
     firstTime_ = firstTime_.value_or(time);
     firstDepth_.look(frame->depth);
@@ -110,14 +110,14 @@ void ComputeSide::check(const fathom::Frame& frame) {
     }
 }
 
-void ComputeSide::setArm(const ArmPosture& posture) {
+void ComputeState::setArm(const ArmPosture& posture) {
     posture_ = posture;
     if (cycles.plan().selfFilter) {
         cycles.frames().setArm(haptic.arm->inImage(posture));
     }
 }
 
-double ComputeSide::clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out) {
+double ComputeState::clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out) {
     std::vector<fathom::Pose> poses;
     for (const v0::Pose& given : baseTtool) {
         fathom::Pose pose = internal(given);
@@ -136,7 +136,7 @@ double ComputeSide::clearances(std::span<const v0::Pose> baseTtool, v0::Clearanc
     return batch.captureTime;
 }
 
-void ComputeSide::renew() {
+void ComputeState::renew() {
     cycles.renew();
     setArm(posture_);
 }

@@ -24,8 +24,8 @@ struct Scene::Data {
 namespace fathom::front {
 
 // A camera in the scene. Immutable.
-struct CameraSide {
-    CameraSide(const v0::CameraModel& given, const fathom::Scene& scene);
+struct CameraSetup {
+    CameraSetup(const v0::CameraModel& given, const fathom::Scene& scene);
 
     v0::CameraModel model;
     CameraInfo delivered;                     // images as they are submitted
@@ -35,8 +35,8 @@ struct CameraSide {
 };
 
 // Data for the haptic thread. Immutable after construction.
-struct HapticSide {
-    HapticSide(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given);
+struct HapticSetup {
+    HapticSetup(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given);
     std::unique_ptr<HapticCycle> cycle(const v0::HandStart& start) const;
 
     fathom::Scene scene;           // its uncertainty includes the camera's
@@ -47,8 +47,8 @@ struct HapticSide {
 };
 
 // Data for the frame and contact threads. `haptic` must outlive it.
-struct ComputeSide {
-    ComputeSide(const HapticSide& haptic, const CameraInfo& camera, const std::string& device);
+struct ComputeState {
+    ComputeState(const HapticSetup& haptic, const CameraInfo& camera, const std::string& device);
 
     // Frame thread, before a frame: where the arm is in its image. No effect without a self-filter.
     void setArm(const ArmPosture& posture);
@@ -59,7 +59,7 @@ struct ComputeSide {
     double clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out);
     void renew(); // frame thread, after a loss of the device
 
-    const HapticSide& haptic;
+    const HapticSetup& haptic;
     std::unique_ptr<gpu::Instance> instance; // null: the scene has no passes
     DeviceCycles cycles;
 

@@ -22,7 +22,7 @@ namespace fathom::front {
 // Feeds submitted frames to the frame loop. Frame thread only, except `lost`.
 class SubmittedFeed final : public FrameFeed {
 public:
-    SubmittedFeed(v0::CameraPort::Impl& camera, ComputeSide& compute, PortState& shared)
+    SubmittedFeed(v0::CameraPort::Impl& camera, ComputeState& compute, PortState& shared)
         : camera_(camera)
         , compute_(compute)
         , shared_(shared) {}
@@ -90,7 +90,7 @@ private:
     }
 
     v0::CameraPort::Impl& camera_;
-    ComputeSide& compute_;
+    ComputeState& compute_;
     PortState& shared_;
     std::optional<fathom::Frame> next_;
     std::mutex showing_; // between publish() and observe()
@@ -133,7 +133,7 @@ auto openOnce(std::atomic<bool>& open, const std::string& port, Make&& make) {
 
 struct Engine::Impl {
     Impl(const Scene& scene, const CameraModel& model, const EngineOptions& options)
-        : camera(std::make_shared<CameraPort::Impl>(front::CameraSide(model, scene.data().scene)))
+        : camera(std::make_shared<CameraPort::Impl>(front::CameraSetup(model, scene.data().scene)))
         , shared(std::make_shared<front::PortState>(scene.data().scene, camera->info, options))
         , compute(shared->haptic, camera->info, options.computeDevice)
         , feed(*camera, compute, *shared)
@@ -187,7 +187,7 @@ struct Engine::Impl {
     const pid_t processId = ::getpid();
     std::shared_ptr<CameraPort::Impl> camera;
     std::shared_ptr<front::PortState> shared;
-    front::ComputeSide compute;
+    front::ComputeState compute;
     front::SubmittedFeed feed;
     CycleAnswers answers;
     FrameLoop frames;

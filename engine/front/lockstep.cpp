@@ -14,7 +14,7 @@ namespace fathom::v0 {
 
 struct Lockstep::Impl {
     Impl(const Scene& scene, const CameraModel& model, const HandStart& start, const EngineOptions& options)
-        : camera(front::CameraSide(model, scene.data().scene))
+        : camera(front::CameraSetup(model, scene.data().scene))
         , haptic(scene.data().scene, camera.info, options)
         , compute(haptic, camera.info, options.computeDevice)
         , cycle(haptic.cycle(start))
@@ -29,8 +29,8 @@ struct Lockstep::Impl {
 
     const pid_t processId = ::getpid();
     CameraPort::Impl camera;
-    front::HapticSide haptic;
-    front::ComputeSide compute;
+    front::HapticSetup haptic;
+    front::ComputeState compute;
     std::unique_ptr<HapticCycle> cycle;
     DelayedContacts contacts;
     SceneUpdate update;

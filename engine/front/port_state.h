@@ -24,7 +24,7 @@ struct PortState {
         }
         channels.arm = options.measuredArm ? &arm : nullptr;
     }
-    HapticSide haptic;
+    HapticSetup haptic;
     RunClock clock; // t = 0 is in the past, so that frames older than the engine keep their age
     Channels channels;
     ArmLink arm;                          // of a real arm, if channels.arm points to it
