@@ -20,7 +20,8 @@ constexpr uint64_t kLongWait = 10'000'000'000; // [ns] a frame on a busy CPU dev
 
 } // namespace
 
-Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade)
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer,
+                 EmptyTag)
     : device_(device)
     , swapchain_(swapchain) {
     if (drawer == By::Cpu) {
@@ -32,7 +33,7 @@ Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* 
 
 // Delegates, so that the destructor runs when a later step throws.
 Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer)
-    : Painter(instance, device, swapchain, drawer, Unmade{}) {
+    : Painter(instance, device, swapchain, drawer, EmptyTag{}) {
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                        VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, device.drawFamily()};
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");

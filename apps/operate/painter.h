@@ -62,8 +62,8 @@ private:
         gpu::Buffer staging;
         bool fresh = false; // staged for this frame
     };
-    struct Unmade {}; // creates none of the painter's own device objects
-    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade);
+    struct EmptyTag {}; // creates none of the painter's own device objects
+    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, EmptyTag);
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
     bool drawNow(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data);

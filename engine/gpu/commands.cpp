@@ -16,12 +16,12 @@ constexpr VkAccessFlags kAccess = VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_
 
 } // namespace
 
-Commands::Commands(const Device& device, Unmade)
+Commands::Commands(const Device& device, EmptyTag)
     : device_(device) {}
 
 // Delegates, so that the destructor runs when a later step throws.
 Commands::Commands(const Device& device)
-    : Commands(device, Unmade{}) {
+    : Commands(device, EmptyTag{}) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");

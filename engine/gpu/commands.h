@@ -53,8 +53,8 @@ public:
     void barrierBeforeIndirect(); // also covers the arguments of dispatchIndirect()
 
 private:
-    struct Unmade {}; // creates nothing on the device
-    Commands(const Device& device, Unmade);
+    struct EmptyTag {}; // creates nothing on the device
+    Commands(const Device& device, EmptyTag);
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);
     void bind(const Pipeline& pipeline, const Bindings& bindings, const void* push);
 
