@@ -190,7 +190,7 @@ StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& wo
 
 // A peer library with its tree over one set.
 struct BuiltPeer {
-    peers::Way<peers::CollisionPeer> way;
+    peers::PeerMethod<peers::CollisionPeer> method;
     std::unique_ptr<peers::CollisionPeer> peer;
     double buildMs;
 };
@@ -198,10 +198,10 @@ struct BuiltPeer {
 std::vector<BuiltPeer> buildPeers(const StudyContext& context, const RegionSpheres& spheres) {
     const Repeats repeats = context.settings.quick ? Repeats{3, 10, 0.05} : Repeats{5, 50, 0.4};
     std::vector<BuiltPeer> built;
-    for (auto& way : peers::collisionWays()) {
-        auto peer = way.make();
+    for (auto& method : peers::collisionMethods()) {
+        auto peer = method.make();
         const double ms = timeCpu(repeats, [&] { peer->build(spheres); }).submit.p50;
-        built.push_back({std::move(way), std::move(peer), ms});
+        built.push_back({std::move(method), std::move(peer), ms});
     }
     return built;
 }
@@ -222,9 +222,9 @@ void addSource(const StudyContext& context, const FrameSequence& frames, const s
         rows.push_back(ourGrid(context, rig, work, source));
         rows.push_back(ourTree(context, rig, work, source));
         for (const BuiltPeer& b : built) {
-            StudyRow row = peerRow(source, b.way.name);
+            StudyRow row = peerRow(source, b.method.name);
             row.more[kBuild] = b.buildMs;
-            row.more[kThreads] = b.way.threads;
+            row.more[kThreads] = b.method.threads;
             answerAndTime(
                 context, work,
                 [&](size_t i, std::vector<uint32_t>& found) {

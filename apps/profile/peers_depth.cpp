@@ -131,12 +131,12 @@ void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_
     judge(row, twin);
     // The same Gaussian as in Fathom, for a surface perpendicular to the view at the median depth.
     const double pixels = scene.filter.sigma * frames.camera.depth.fx / medianDepth(raw);
-    for (const auto& way : peers::filterWays(radius, pixels, scene.filter.sigma)) {
-        const auto peer = way.make();
+    for (const auto& method : peers::filterMethods(radius, pixels, scene.filter.sigma)) {
+        const auto peer = method.make();
         peer->load({frames.camera.depth, raw});
-        row = peerRow(source, way.name);
+        row = peerRow(source, method.name);
         row.cost = timeCpu(context.settings.repeats(), [&] { peer->run(); });
-        row.more[kThreads] = way.threads;
+        row.more[kThreads] = method.threads;
         judge(row, peer->depths());
     }
     fillRatios(rows, first, first, first);
@@ -198,16 +198,16 @@ void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
     row.more[kThreads] = deviceThreads(context.device);
     row.isDefault = true;
     rows.push_back(row);
-    for (const auto& way : peers::pointWays()) {
-        const auto peer = way.make();
+    for (const auto& method : peers::pointMethods()) {
+        const auto peer = method.make();
         peer->load(frames.camera.depth, image.depth);
         peer->run();
         const std::vector<dvec3> points = peer->points();
-        row = peerRow(source, way.name);
+        row = peerRow(source, method.name);
         row.error =
             static_cast<double>(wrongPoints(view, points, [&](size_t i) { return points[i].z > 0.0; }));
         row.cost = timeCpu(context.settings.repeats(), [&] { peer->run(); });
-        row.more[kThreads] = way.threads;
+        row.more[kThreads] = method.threads;
         rows.push_back(row);
     }
     fillRatios(rows, first, first, first);

@@ -24,8 +24,8 @@ using MeasuredValue = double Measured::*;
 std::vector<Measured> measuredOf(const std::vector<StudyRow>& rows) {
     std::vector<Measured> all;
     for (const StudyRow& row : rows) {
-        const bool cpu = isWay(row, kCpuWay), gpu = isWay(row, kGpuWay);
-        if (!cpu && !gpu && !isWay(row, kBruteWay)) {
+        const bool cpu = isMethod(row, kCpuMethod), gpu = isMethod(row, kGpuMethod);
+        if (!cpu && !gpu && !isMethod(row, kBruteMethod)) {
             continue;
         }
         auto at = std::find_if(all.begin(), all.end(), [&](const Measured& m) {

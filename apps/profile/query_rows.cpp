@@ -47,9 +47,9 @@ struct TouchingTool {
     double pairs(const SphereSet& set) const {
         return static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
     }
-    StudyRow row(const SphereSet& set, const char* way) const {
+    StudyRow row(const SphereSet& set, const char* method) const {
         StudyRow row = queryRow(sizeName(set.spheres),
-                                std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
+                                std::string(method) + " " + std::to_string(tool.leafCount()) + " leaves");
         row.more[kToolLeaves] = static_cast<double>(tool.leafCount());
         row.more[kRegionSpheres] = static_cast<double>(set.spheres.size());
         row.more[kFoundSpheres] = static_cast<double>(truth.size());
@@ -59,10 +59,10 @@ struct TouchingTool {
 };
 
 // One method of building a contact set: cull, sort, list all pairs, certify the reach.
-struct Way {
+struct QueryMethod {
     Plan plan;
     ContactCycle cycle;
-    Way(gpu::Device& device, const WallRig& rig, Plan::Query query, const Tool& tool)
+    QueryMethod(gpu::Device& device, const WallRig& rig, Plan::Query query, const Tool& tool)
         : plan(planOf(rig, query))
         , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kQueryReach) {}
     static Plan planOf(const WallRig& rig, Plan::Query query) {
@@ -124,7 +124,7 @@ void timeCpuCull(const StudyContext& context, const SphereSet& set, const Touchi
 }
 
 StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const TouchingTool& at) {
-    StudyRow row = at.row(set, kBruteWay);
+    StudyRow row = at.row(set, kBruteMethod);
     if (at.pairs(set) > kMaxBrutePairs) {
         return row;
     }
@@ -137,12 +137,12 @@ StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const Touch
 
 // CPU, GPU and brute-force rows of one tool on one set.
 std::vector<StudyRow> rowsOfTool(const StudyContext& context, const WallRig& rig, const TouchingTool& at) {
-    Way cpu(context.device, rig, Plan::Query::Cpu, at.tool),
+    QueryMethod cpu(context.device, rig, Plan::Query::Cpu, at.tool),
         gpu(context.device, rig, Plan::Query::Gpu, at.tool);
     ContactSet a, b;
     cpu.cycle.query(rig.bench.set(), at.pose, a);
     gpu.cycle.query(rig.bench.set(), at.pose, b);
-    std::vector<StudyRow> rows{at.row(setOf(rig), kCpuWay), at.row(setOf(rig), kGpuWay)};
+    std::vector<StudyRow> rows{at.row(setOf(rig), kCpuMethod), at.row(setOf(rig), kGpuMethod)};
     verify(a.source == b.source && a.pairSphere == b.pairSphere && a.reach == b.reach, "query",
            rows[1].setting, "the contact sets of CPU and GPU differ");
     rows[0].cost = timeCpu(context.settings.repeats(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
@@ -194,10 +194,10 @@ StudyRow queryRow(std::string source, std::string setting) {
 }
 
 double cullTime(const StudyRow& row) {
-    return isWay(row, kCpuWay)   ? row.more[kCpuCullWall]
-           : isWay(row, kGpuWay) ? row.more[kGpuCullSubmit]
-           : row.cost.submit     ? row.cost.submit.p50
-                                 : NAN;
+    return isMethod(row, kCpuMethod)   ? row.more[kCpuCullWall]
+           : isMethod(row, kGpuMethod) ? row.more[kGpuCullSubmit]
+           : row.cost.submit           ? row.cost.submit.p50
+                                       : NAN;
 }
 
 std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uint32_t height,
@@ -225,7 +225,7 @@ std::vector<StudyRow> fewSphereRows(const StudyContext& context) {
         const SphereSet set{spheres, grid, rig.host().origin};
         for (const uint32_t leaves : {1u, 4u, 16u}) {
             const TouchingTool at(set, leaves, touch);
-            timeCpuCull(context, set, at, rows.emplace_back(at.row(set, kCpuWay)));
+            timeCpuCull(context, set, at, rows.emplace_back(at.row(set, kCpuMethod)));
             rows.push_back(bruteRow(context, set, at));
         }
     }

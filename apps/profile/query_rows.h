@@ -24,11 +24,11 @@ std::vector<std::string> queryColumnNames();
 StudyRow queryRow(std::string source, std::string setting);
 
 // Query methods. The setting of a row starts with one of these.
-inline constexpr const char* kCpuWay = "CPU";
-inline constexpr const char* kGpuWay = "GPU";
-inline constexpr const char* kBruteWay = "brute force";
-inline bool isWay(const StudyRow& row, const char* way) {
-    return row.setting.starts_with(way);
+inline constexpr const char* kCpuMethod = "CPU";
+inline constexpr const char* kGpuMethod = "GPU";
+inline constexpr const char* kBruteMethod = "brute force";
+inline bool isMethod(const StudyRow& row, const char* method) {
+    return row.setting.starts_with(method);
 }
 // p50 [ms] of the cull alone, submission to result, by the row's method.
 double cullTime(const StudyRow& row);

@@ -12,7 +12,7 @@ namespace fathom::profile {
 namespace {
 
 struct WayLine {
-    const char* way;
+    const char* method;
     const char* name;
     double dash;
 };
@@ -26,7 +26,7 @@ PlotPanel timePanel(const Study& study, const std::vector<std::string>& sources,
         for (const WayLine& line : ways) {
             PlotSeries series{std::string(line.name) + ", " + source, {}, true, line.dash, source};
             for (const StudyRow& row : study.rows) {
-                if (row.source == source && isWay(row, line.way) && time(row) > 0.0) {
+                if (row.source == source && isMethod(row, line.method) && time(row) > 0.0) {
                     series.points.push_back(
                         {row.more[kToolLeaves], time(row), "", false, false, NAN, p90Of(row, time(row))});
                 }
@@ -38,12 +38,13 @@ PlotPanel timePanel(const Study& study, const std::vector<std::string>& sources,
 }
 
 void drawTimes(Study& study, const std::vector<std::string>& sources) {
-    PlotPanel whole = timePanel(study, sources, {{kCpuWay, "CPU", 0.0}, {kGpuWay, "GPU", 9.0}}, submitTime);
+    PlotPanel whole =
+        timePanel(study, sources, {{kCpuMethod, "CPU", 0.0}, {kGpuMethod, "GPU", 9.0}}, submitTime);
     whole.title = "whole contact set: CPU solid, GPU dashed";
     whole.yLabel = "submission to result p50 [ms]";
-    PlotPanel cull =
-        timePanel(study, sources, {{kCpuWay, "grid", 0.0}, {kGpuWay, "tree", 9.0}, {kBruteWay, "brute", 3.0}},
-                  cullTime);
+    PlotPanel cull = timePanel(
+        study, sources, {{kCpuMethod, "grid", 0.0}, {kGpuMethod, "tree", 9.0}, {kBruteMethod, "brute", 3.0}},
+        cullTime);
     cull.title = "cull alone: CPU's grid solid, GPU's tree dashed, brute force dotted";
     cull.yLabel = "submission to result p50 [ms]";
     study.panels = {std::move(whole), std::move(cull)};

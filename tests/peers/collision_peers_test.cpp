@@ -45,7 +45,7 @@ World randomWorld(size_t spheres, size_t leaves, bool equalRadii, unsigned seed)
 std::vector<uint32_t> checkAll(const World& world, float reach) {
     const auto gaps = nearbyGaps(world.spheres, world.leaves, reach);
     std::vector<uint32_t> found;
-    for (const auto& way : collisionWays()) {
+    for (const auto& way : collisionMethods()) {
         CAPTURE(way.name);
         const auto peer = way.make();
         peer->build(world.spheres);
@@ -111,7 +111,7 @@ TEST_CASE("Every library agrees with float64 on random worlds of many sizes") {
 
 TEST_CASE("A rebuilt library forgets the previous spheres") {
     const World many = randomWorld(200, 3, true, 5), few = randomWorld(3, 3, true, 6), none;
-    for (const auto& way : collisionWays()) {
+    for (const auto& way : collisionMethods()) {
         CAPTURE(way.name);
         const auto peer = way.make();
         std::vector<uint32_t> found;

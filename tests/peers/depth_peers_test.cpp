@@ -57,7 +57,7 @@ double bilateralAt(const std::vector<float>& z, const Intrinsics& lens, int u, i
 TEST_CASE("OpenCV's bilateral filter matches its formula to 20 um for any number of threads") {
     const Intrinsics lens = lensOf(53, 31);
     const auto z = steppedImage(lens);
-    for (const auto& way : filterWays(2, 3.5, 0.01)) {
+    for (const auto& way : filterMethods(2, 3.5, 0.01)) {
         if (way.name.rfind("OpenCV", 0) != 0) {
             continue;
         }
@@ -84,7 +84,7 @@ TEST_CASE("Every filter keeps the step, smooths the noise and adds no depth to u
     const Intrinsics lens = lensOf(64, 47);
     auto z = steppedImage(lens);
     z[5 * 64 + 9] = z[40 * 64 + 60] = kNone;
-    for (const auto& way : filterWays(3, 4.0, 0.02)) {
+    for (const auto& way : filterMethods(3, 4.0, 0.02)) {
         CAPTURE(way.name);
         const auto peer = way.make();
         peer->load({lens, z});
@@ -110,7 +110,7 @@ TEST_CASE("Every filter keeps the step, smooths the noise and adds no depth to u
 TEST_CASE("A filter does not change a constant image") {
     const Intrinsics lens = lensOf(17, 9);
     const std::vector<float> z(lens.pixels(), 0.75f);
-    for (const auto& way : filterWays(2, 2.0, 0.01)) {
+    for (const auto& way : filterMethods(2, 2.0, 0.01)) {
         CAPTURE(way.name);
         const auto peer = way.make();
         peer->load({lens, z});
@@ -129,7 +129,7 @@ TEST_CASE(
         for (uint32_t i = 0; i < lens.pixels(); ++i) {
             raw.push_back(static_cast<uint16_t>(i % 5 == 4 ? 0 : 400 + (i * 37) % 1700));
         }
-        for (const auto& way : pointWays()) {
+        for (const auto& way : pointMethods()) {
             CAPTURE(way.name);
             const auto peer = way.make();
             peer->load(lens, raw);

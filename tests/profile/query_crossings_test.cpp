@@ -15,13 +15,13 @@ namespace {
 void addWays(std::vector<StudyRow>& rows, double spheres, double leaves, double cpu, double gpu,
              double brute) {
     const std::string source = digits(spheres, 6) + " spheres", tool = " " + digits(leaves) + " leaves";
-    for (const auto& [way, ms] : {std::pair{kCpuWay, cpu}, {kGpuWay, gpu}, {kBruteWay, brute}}) {
-        StudyRow row = queryRow(source, way + tool);
+    for (const auto& [method, ms] : {std::pair{kCpuMethod, cpu}, {kGpuMethod, gpu}, {kBruteMethod, brute}}) {
+        StudyRow row = queryRow(source, method + tool);
         row.more[kRegionSpheres] = spheres, row.more[kToolLeaves] = leaves;
         if (std::isfinite(ms)) {
             row.cost.submit = {ms, ms, ms, 5};
         }
-        row.more[way == kCpuWay ? kCpuCullWall : kGpuCullSubmit] = 0.5 * ms; // time of the culls
+        row.more[method == kCpuMethod ? kCpuCullWall : kGpuCullSubmit] = 0.5 * ms; // time of the culls
         rows.push_back(row);
     }
 }

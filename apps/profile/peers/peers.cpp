@@ -18,37 +18,37 @@ std::string onThreads(const std::string& name, uint32_t threads) {
 
 } // namespace
 
-std::vector<Way<CollisionPeer>> collisionWays() {
-    std::vector<Way<CollisionPeer>> ways;
+std::vector<PeerMethod<CollisionPeer>> collisionMethods() {
+    std::vector<PeerMethod<CollisionPeer>> methods;
     for (const uint32_t threads : threadCounts()) { // for the build; queries use the calling thread
-        ways.push_back(
+        methods.push_back(
             {onThreads("Embree points", threads), threads, [threads] { return makeEmbreePoints(threads); }});
     }
-    ways.push_back({"PCL kd-tree", 1, makePclRadius});
-    ways.push_back({"FCL tree", 1, makeFclTree});
-    ways.push_back({"Bullet inserted", 1, [] { return makeBulletTree(false); }});
-    ways.push_back({"Bullet top-down", 1, [] { return makeBulletTree(true); }});
-    return ways;
+    methods.push_back({"PCL kd-tree", 1, makePclRadius});
+    methods.push_back({"FCL tree", 1, makeFclTree});
+    methods.push_back({"Bullet inserted", 1, [] { return makeBulletTree(false); }});
+    methods.push_back({"Bullet top-down", 1, [] { return makeBulletTree(true); }});
+    return methods;
 }
 
-std::vector<Way<FilterPeer>> filterWays(uint32_t radius, double pixels, double metres) {
-    std::vector<Way<FilterPeer>> ways;
+std::vector<PeerMethod<FilterPeer>> filterMethods(uint32_t radius, double pixels, double metres) {
+    std::vector<PeerMethod<FilterPeer>> methods;
     for (const uint32_t threads : threadCounts()) {
-        ways.push_back({onThreads("OpenCV bilateral", threads), threads,
-                        [=] { return makeOpencvBilateral(radius, pixels, metres, threads); }});
-        ways.push_back({onThreads("PCL bilateral OMP", threads), threads,
-                        [=] { return makePclBilateral(pixels, metres, threads); }});
+        methods.push_back({onThreads("OpenCV bilateral", threads), threads,
+                           [=] { return makeOpencvBilateral(radius, pixels, metres, threads); }});
+        methods.push_back({onThreads("PCL bilateral OMP", threads), threads,
+                           [=] { return makePclBilateral(pixels, metres, threads); }});
     }
-    return ways;
+    return methods;
 }
 
-std::vector<Way<PointPeer>> pointWays() {
-    std::vector<Way<PointPeer>> ways;
+std::vector<PeerMethod<PointPeer>> pointMethods() {
+    std::vector<PeerMethod<PointPeer>> methods;
     for (const uint32_t threads : threadCounts()) {
-        ways.push_back({onThreads("OpenCV depthTo3d", threads), threads,
-                        [threads] { return makeOpencvPoints(threads); }});
+        methods.push_back({onThreads("OpenCV depthTo3d", threads), threads,
+                           [threads] { return makeOpencvPoints(threads); }});
     }
-    return ways;
+    return methods;
 }
 
 } // namespace fathom::peers

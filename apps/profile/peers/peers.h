@@ -52,16 +52,16 @@ public:
 };
 
 template <class Peer>
-struct Way {
+struct PeerMethod {
     std::string name;     // library, version, method
     uint32_t threads = 1; // threads that share the work
     std::function<std::unique_ptr<Peer>()> make;
 };
-std::vector<Way<CollisionPeer>> collisionWays();
+std::vector<PeerMethod<CollisionPeer>> collisionMethods();
 // Gaussian with sigmas of `pixels` in the image and `metres` in depth; window of 2 radius + 1 pixels if the
 // library has one.
-std::vector<Way<FilterPeer>> filterWays(uint32_t radius, double pixels, double metres);
-std::vector<Way<PointPeer>> pointWays();
+std::vector<PeerMethod<FilterPeer>> filterMethods(uint32_t radius, double pixels, double metres);
+std::vector<PeerMethod<PointPeer>> pointMethods();
 
 // One file per function.
 std::unique_ptr<CollisionPeer> makePclRadius();
