@@ -176,44 +176,44 @@ void RunWatch::tick(double t, std::string_view state, int64_t frame, uint32_t va
         warnVanished(t);
     }
     if (state == "free" || state == "contact") {
-        ++loud_;
-        quiet_.state.clear();
+        ++active_;
+        span_.state.clear();
         return;
     }
-    if (quiet_.state != state) {
-        quiet_.state = state;
-        quiet_.since = t;
+    if (span_.state != state) {
+        span_.state = state;
+        span_.since = t;
     }
-    quiet_.frame = frame;
-    if (t - quiet_.since >= kPatience) {
+    span_.frame = frame;
+    if (t - span_.since >= kPatience) {
         warnState(kPatience);
     }
 }
 
 std::string RunWatch::causeOfState() const {
-    if (quiet_.state == "waiting") {
+    if (span_.state == "waiting") {
         return "the tool cannot follow the hand";
     }
-    if (quiet_.state == "trapped") {
+    if (span_.state == "trapped") {
         return "no motion of the tool obeys all fixtures at once, so there is no force";
     }
-    if (quiet_.state == "escape") {
+    if (span_.state == "escape") {
         return "a placed shape or new data covers the tool, and pushes it out";
     }
     if (!rate_.framed) {
         return "no frame has become a set of regions";
     }
-    if (quiet_.state == "fading") {
+    if (span_.state == "fading") {
         return "the regions in use are too old: frames or contact answers are late";
     }
-    return quiet_.frame < 0 ? "no contact answer was made near the tool"
-                            : "forces are off by the dead-man switch, or the haptic device is lost";
+    return span_.frame < 0 ? "no contact answer was made near the tool"
+                           : "forces are off by the dead-man switch, or the haptic device is lost";
 }
 
 void RunWatch::warnState(double seconds) {
-    warnings_.add("state " + quiet_.state, "state '" + quiet_.state + "' from " +
-                                               printed("%.2f s on for %.3g s: ", quiet_.since, seconds) +
-                                               causeOfState());
+    warnings_.add("state " + span_.state, "state '" + span_.state + "' from " +
+                                              printed("%.2f s on for %.3g s: ", span_.since, seconds) +
+                                              causeOfState());
 }
 
 // The tool stays where it was, and the hand feels nothing there any more.
@@ -244,8 +244,8 @@ void RunWatch::end() {
             warnClass(state, "in any frame");
         }
     }
-    if (ticks_ > 0 && loud_ == 0) {
-        warnState(last_ - quiet_.since);
+    if (ticks_ > 0 && active_ == 0) {
+        warnState(last_ - span_.since);
     }
 }
 

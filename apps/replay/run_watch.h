@@ -50,7 +50,7 @@ private:
         std::string cause;
     };
     // A state without the force of a contact, while it lasts.
-    struct Quiet {
+    struct StateSpan {
         std::string state;
         double since = 0.0; // [s]
         int64_t frame = -1; // of the active set; -1 = none
@@ -75,9 +75,9 @@ private:
     double nearZ_, farZ_;             // [m]
     std::vector<ClassState> classes_; // in the order of the mask's bits
     RunWarnings warnings_;
-    Quiet quiet_;
-    double last_ = 0.0;             // [s] of the newest tick
-    uint64_t ticks_ = 0, loud_ = 0; // loud: ticks in another state
+    StateSpan span_;
+    double last_ = 0.0;               // [s] of the newest tick
+    uint64_t ticks_ = 0, active_ = 0; // active: ticks free or in contact
     uint32_t vanished_ = 0;
     Rate rate_;
 };
