@@ -72,9 +72,9 @@ uint32_t soundFrames(BagCamera& camera) {
     return used;
 }
 
-struct Quiet {
-    Quiet() { spdlog::set_level(spdlog::level::off); }
-    ~Quiet() { spdlog::set_level(spdlog::level::info); }
+struct ScopedLogOff {
+    ScopedLogOff() { spdlog::set_level(spdlog::level::off); }
+    ~ScopedLogOff() { spdlog::set_level(spdlog::level::info); }
 };
 
 } // namespace
@@ -222,7 +222,7 @@ TEST_CASE("A Matroska file without its calibration, size or tracks is refused in
 
 TEST_CASE("Damage in a Matroska file loses the images of its cluster only, and is named") {
     const TemporaryFolder folder;
-    const Quiet quiet;
+    const ScopedLogOff off;
     MkvFile file = recorded(4);
     const std::string whole = file.bytes();
     for (const bool sized : {true, false}) { // a recorder that was killed leaves sizes open
