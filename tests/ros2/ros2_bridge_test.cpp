@@ -4,7 +4,7 @@
 #include "devices/ros2/received_messages.h"
 #include "engine/types/error.h"
 #include "tests/ros2/bridge_loop.h"
-#include "tests/ros2/heard.h"
+#include "tests/ros2/topic_listener.h"
 #include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,7 @@ std::string topicsRefusal(const std::string& text) {
 
 TEST_CASE("The poses of a node of ROS 2 move the hand, and its topic gets the engine's force") {
     TopicLoop loop;
-    Heard force("/haptic/wrench", "WrenchStamped");
+    TopicListener force("/haptic/wrench", "WrenchStamped");
     CHECK(loop.hand.preset() == "falcon");
     CHECK(loop.until(kRest, [](const HandSample& sample) { return near(sample, {0.1, 0.2, 0.3}); }));
     CHECK(loop.until("0.1 0.2 0.3 0.5 -0.1 0.7 0.5", [](const HandSample& sample) { // x, y, z, w
@@ -59,7 +59,7 @@ TEST_CASE("The poses of a node of ROS 2 move the hand, and its topic gets the en
 
 TEST_CASE("The force is zero while the engine is silent") {
     TopicLoop loop;
-    Heard force("/haptic/wrench", "WrenchStamped");
+    TopicListener force("/haptic/wrench", "WrenchStamped");
     CHECK(loop.until(kRest, [](const HandSample& sample) { return sample.present; }));
     loop.until(kRest, [n = 0](const HandSample&) mutable { return ++n == 300; });
     CHECK(force.until([](const Line& line) { return line.number(4) > 0.5; }).any());

@@ -3,7 +3,7 @@
 // generous limits, and none is for a fixed time.
 #include "apps/binding/ros2_output.h"
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/heard.h"
+#include "tests/ros2/topic_listener.h"
 #include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ std::string outputRefusal(const std::string& text) {
 
 TEST_CASE("Wrenches and poses of a run arrive at subscribers with their frames and UTC stamps") {
     FedRun run("/fathom,frame=base_link");
-    Heard wrench("/fathom/wrench", "WrenchStamped"), device("/fathom/device_wrench", "WrenchStamped"),
+    TopicListener wrench("/fathom/wrench", "WrenchStamped"), device("/fathom/device_wrench", "WrenchStamped"),
         tool("/fathom/tool_pose", "PoseStamped"), hand("/fathom/device_pose", "PoseStamped"),
         target("/fathom/target_pose", "PoseStamped");
     CHECK(wrench.next().is("base_link 1 2 3 0.1 0.2 0.3"));
@@ -40,7 +40,7 @@ TEST_CASE("Wrenches and poses of a run arrive at subscribers with their frames a
 TEST_CASE("No target is published while nothing guides") {
     FedRun run("/fathom");
     run.change([](TickRow& row) { row.record.guidanceClass = -1; });
-    Heard target("/fathom/target_pose", "PoseStamped"), tool("/fathom/tool_pose", "PoseStamped");
+    TopicListener target("/fathom/target_pose", "PoseStamped"), tool("/fathom/tool_pose", "PoseStamped");
     for (int i = 0; i < 50; ++i) {
         REQUIRE(tool.next().any());
     }
@@ -51,7 +51,7 @@ TEST_CASE("No target is published while nothing guides") {
 
 TEST_CASE("Regions and shapes are published as points and as markers, also to who subscribes later") {
     FedRun run("/fathom");
-    Heard cloud("/fathom/regions", "PointCloud2"), markers("/fathom/markers", "MarkerArray");
+    TopicListener cloud("/fathom/regions", "PointCloud2"), markers("/fathom/markers", "MarkerArray");
     CHECK(cloud.next().is("base x,y,z,radius,class 3 1 20 60 10.5 -0.25 1 0.0625 2"));
     CHECK(markers.next().is("base - 0 2 3 0 0 0 0 0 0 1 1 1 1 0 0 - 0")); // deletes those of before
     const Line small = markers.next(), large = markers.next(), box = markers.next(), axis = markers.next();
@@ -64,7 +64,7 @@ TEST_CASE("Regions and shapes are published as points and as markers, also to wh
     CHECK(large.number(kPoints) == 1.0);
     CHECK(box.is("base shapes 4 1 0 0.1 0.2 0.3 0 0 0 1 0.5 0.6 0.7 0.25 0 - 0"));
     CHECK(axis.words(1, 5) == "base shapes 5 0 0");
-    Heard late("/fathom/regions", "PointCloud2");
+    TopicListener late("/fathom/regions", "PointCloud2");
     CHECK(late.next().any());
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("Diagnostics name the state, the age of the scene, the rates, and a fa
         row.driven = true;
         row.armStatus.state = ArmState::Overloaded;
     });
-    Heard diagnostics("/diagnostics", "DiagnosticArray");
+    TopicListener diagnostics("/diagnostics", "DiagnosticArray");
     const auto part = [&](const std::string& name) {
         return diagnostics.until([&](const Line& line) { return line.holds(name); });
     };
@@ -91,15 +91,15 @@ TEST_CASE("Diagnostics name the state, the age of the scene, the rates, and a fa
 
 TEST_CASE("The joints of an arm are published with their names") {
     FedRun run("/fathom", {{"shoulder", false}, {"elbow", false}});
-    Heard joints("/fathom/joint_states", "JointState");
+    TopicListener joints("/fathom/joint_states", "JointState");
     CHECK(joints.next().is("base shoulder 0.5 elbow -0.25"));
 }
 
 TEST_CASE("A subscriber that stops reading, and one that is killed, do not keep messages from others") {
     FedRun run("/fathom");
-    Heard wrench("/fathom/wrench", "WrenchStamped");
-    auto killed = std::make_unique<Heard>("/fathom/wrench", "WrenchStamped");
-    Heard stopped("/fathom/wrench", "WrenchStamped");
+    TopicListener wrench("/fathom/wrench", "WrenchStamped");
+    auto killed = std::make_unique<TopicListener>("/fathom/wrench", "WrenchStamped");
+    TopicListener stopped("/fathom/wrench", "WrenchStamped");
     REQUIRE(killed->next().any());
     REQUIRE(stopped.next().any());
     stopped.stop();
@@ -114,7 +114,7 @@ TEST_CASE("A subscriber that stops reading, and one that is killed, do not keep 
 
 TEST_CASE("A topic gets at most the rate that was asked for, and a new run continues it") {
     FedRun run("/fathom,rate=20");
-    Heard tool("/fathom/tool_pose", "PoseStamped");
+    TopicListener tool("/fathom/tool_pose", "PoseStamped");
     REQUIRE(tool.next().any());
     double last = tool.next().stamp();
     for (int i = 0; i < 10; ++i) {

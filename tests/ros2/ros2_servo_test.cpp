@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands for robots, and requests from other programs, as topics of a run.
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/heard.h"
 #include "tests/ros2/robot.h"
+#include "tests/ros2/topic_listener.h"
 #include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
@@ -48,7 +48,7 @@ TEST_CASE(
         row.record.tool.rotation =
             glm::angleAxis(0.5 * row.record.t, dvec3(0.0, 1.0, 0.0)) * row.record.tool.rotation;
     });
-    Heard twist("/servo_node/delta_twist_cmds", "TwistStamped");
+    TopicListener twist("/servo_node/delta_twist_cmds", "TwistStamped");
     const Line moves = twist.until([](const Line& line) { return isNear(line, 2, 0.03); });
     CHECK(moves.words(1, 1) == "base_link");
     CHECK(isNear(moves, 3, 0.0));
@@ -68,7 +68,7 @@ TEST_CASE(
 TEST_CASE("The last velocity that a servo controller gets is zero") {
     auto run = std::make_unique<FedRun>("/fathom,twist=/twist");
     run->each([](TickRow& row) { row.record.tool.position.x += 0.03 * row.record.t; });
-    Heard twist("/twist", "TwistStamped");
+    TopicListener twist("/twist", "TwistStamped");
     REQUIRE(twist.until([](const Line& line) { return isNear(line, 2, 0.03); }).any());
     run.reset();
     CHECK(twist.until([](const Line& line) { return line.number(2) == 0.0; }).any());
@@ -83,7 +83,7 @@ TEST_CASE("A servo controller gets a zero velocity when the run stands still, an
         }
         row.record.tool.position.x += 0.03 * row.record.t;
     });
-    Heard twist("/twist", "TwistStamped");
+    TopicListener twist("/twist", "TwistStamped");
     REQUIRE(twist.until([](const Line& line) { return isNear(line, 2, 0.03); }).any());
     still = true;
     Line last = twist.until([](const Line& line) { return line.number(2) == 0.0; });
@@ -98,7 +98,7 @@ TEST_CASE("A servo controller gets a zero velocity when the run stands still, an
 
 TEST_CASE("A robot gets joints only while its own are known and close to them") {
     FedRun run("/fathom,trajectory=/controller/joint_trajectory,measured=/joint_states", kJoints);
-    Heard joints("/controller/joint_trajectory", "JointTrajectory"),
+    TopicListener joints("/controller/joint_trajectory", "JointTrajectory"),
         diagnostics("/diagnostics", "DiagnosticArray");
     Robot robot;
     const auto reported = [&](const std::string& text) {
@@ -130,7 +130,7 @@ TEST_CASE("A robot gets joints only while its own are known and close to them") 
 TEST_CASE("Joints that follow another one are neither awaited from the robot nor sent to it") {
     FedRun run("/fathom,trajectory=/trajectory,measured=/joint_states",
                {{"shoulder", false, true}, {"rail", true}});
-    Heard joints("/trajectory", "JointTrajectory");
+    TopicListener joints("/trajectory", "JointTrajectory");
     Robot robot;
     robot.isAt("rail -0.25");
     CHECK(joints.next().is("base 0.008000000 rail -0.25"));
@@ -138,7 +138,7 @@ TEST_CASE("Joints that follow another one are neither awaited from the robot nor
 
 TEST_CASE("Frames of tool and camera are published if asked for") {
     FedRun run("/fathom,tf=on");
-    Heard frames("/tf", "TFMessage");
+    TopicListener frames("/tf", "TFMessage");
     CHECK(frames.until([](const Line& line) { return line.holds("fathom_tool"); })
               .is("base fathom_tool 0.25 -0.5 0.75 0.5 0.5 0.5 0.5"));
     CHECK(frames.until([](const Line& line) { return line.holds("fathom_camera"); })
@@ -158,7 +158,7 @@ TEST_CASE("Other programs can switch forces off, guidance and freezing, but only
 
     FedRun deaf("/deaf");
     Speaker unheard("/deaf/forces_off", "Empty");
-    Heard wrench("/deaf/wrench", "WrenchStamped");
+    TopicListener wrench("/deaf/wrench", "WrenchStamped");
     bool obeyed = false;
     sayUntil(unheard, "", [&, n = 0]() mutable {
         obeyed = obeyed || deaf.observer().takeRequests().forcesOff;

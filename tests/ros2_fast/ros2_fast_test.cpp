@@ -5,7 +5,7 @@
 #include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/heard.h"
+#include "tests/ros2/topic_listener.h"
 
 #include <doctest/doctest.h>
 
@@ -24,7 +24,7 @@ bool isAt(const HandSample& sample, double x) {
 
 TEST_CASE("Fast DDS subscribers read wrenches, poses, velocities, regions and diagnostics of a run") {
     FedRun run("/fathom,twist=/twist");
-    Heard wrench("/fathom/wrench", "WrenchStamped"), tool("/fathom/tool_pose", "PoseStamped"),
+    TopicListener wrench("/fathom/wrench", "WrenchStamped"), tool("/fathom/tool_pose", "PoseStamped"),
         twist("/twist", "TwistStamped"), cloud("/fathom/regions", "PointCloud2"),
         diagnostics("/diagnostics", "DiagnosticArray");
     const Line first = wrench.next();
@@ -40,10 +40,10 @@ TEST_CASE("Fast DDS subscribers read wrenches, poses, velocities, regions and di
 
 TEST_CASE("Fast DDS subscribers that are late or killed do not keep messages from others") {
     FedRun run("/fathom");
-    Heard wrench("/fathom/wrench", "WrenchStamped");
+    TopicListener wrench("/fathom/wrench", "WrenchStamped");
     REQUIRE(wrench.next().any());
     {
-        Heard late("/fathom/wrench", "WrenchStamped"), cloud("/fathom/regions", "PointCloud2");
+        TopicListener late("/fathom/wrench", "WrenchStamped"), cloud("/fathom/regions", "PointCloud2");
         CHECK(late.next().any());
         CHECK(cloud.next().any()); // of a set that was made long before
     }
@@ -54,7 +54,7 @@ TEST_CASE("Fast DDS subscribers that are late or killed do not keep messages fro
 TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts as gone, and its successor "
           "is used") {
     BridgeLoop loop(kPose);
-    Heard force("/haptic/wrench", "WrenchStamped");
+    TopicListener force("/haptic/wrench", "WrenchStamped");
     auto node = std::make_unique<Speaker>(kPose, "PoseStamped");
     CHECK(loop.until(node.get(), "0.1 0 0 0 0 0 1",
                      [](const HandSample& sample) { return isAt(sample, 0.1); }));

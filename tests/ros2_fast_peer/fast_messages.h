@@ -24,7 +24,7 @@ inline Said headerOf(Cdr& cdr) {
     return Said().stamp(seconds, nanoseconds).word(frame);
 }
 
-inline void tellNumbers(Cdr& cdr, int count) {
+inline void printNumbers(Cdr& cdr, int count) {
     Said line = headerOf(cdr);
     for (int i = 0; i < count; ++i) {
         double number = 0.0;
@@ -35,7 +35,7 @@ inline void tellNumbers(Cdr& cdr, int count) {
 }
 
 // Fields, count of points, and the first point.
-inline void tellCloud(Cdr& cdr) {
+inline void printCloud(Cdr& cdr) {
     Said line = headerOf(cdr);
     uint32_t height = 0, width = 0, fields = 0, offset = 0, count = 0, pointStep = 0, rowStep = 0, size = 0;
     uint8_t type = 0, bigEndian = 0;
@@ -55,7 +55,7 @@ inline void tellCloud(Cdr& cdr) {
     line.print();
 }
 
-inline void tellDiagnostics(Cdr& cdr) {
+inline void printDiagnostics(Cdr& cdr) {
     const Said header = headerOf(cdr);
     uint32_t parts = 0;
     cdr >> parts;
@@ -124,7 +124,7 @@ inline Bytes requestOf(const std::string& line, uint64_t client, int64_t number)
 }
 
 // Prints "NUMBER SUCCESS MESSAGE". False: it is another client's, or answers another request.
-inline bool tellReply(Bytes& bytes, uint64_t client, int64_t number) {
+inline bool printReply(Bytes& bytes, uint64_t client, int64_t number) {
     FastBuffer buffer(bytes.data(), bytes.size());
     Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
     cdr.read_encapsulation();
@@ -142,20 +142,20 @@ inline bool tellReply(Bytes& bytes, uint64_t client, int64_t number) {
 
 struct Type {
     const char* name;
-    void (*tell)(Cdr& cdr);
+    void (*print)(Cdr& cdr);
     void (*put)(Cdr& cdr, const std::vector<double>& numbers) = putHeader;
 };
 
 inline const std::map<std::string, Type> kTypes{
-    {"SetBool", {"std_srvs::srv::dds_::SetBool_", tellCloud}},
-    {"Trigger", {"std_srvs::srv::dds_::Trigger_", tellCloud}},
-    {"Image", {"sensor_msgs::msg::dds_::Image_", tellCloud, putImage}},
-    {"CameraInfo", {"sensor_msgs::msg::dds_::CameraInfo_", tellCloud, putInfo}},
-    {"PoseStamped", {"geometry_msgs::msg::dds_::PoseStamped_", [](Cdr& cdr) { tellNumbers(cdr, 7); }}},
-    {"WrenchStamped", {"geometry_msgs::msg::dds_::WrenchStamped_", [](Cdr& cdr) { tellNumbers(cdr, 6); }}},
-    {"TwistStamped", {"geometry_msgs::msg::dds_::TwistStamped_", [](Cdr& cdr) { tellNumbers(cdr, 6); }}},
-    {"PointCloud2", {"sensor_msgs::msg::dds_::PointCloud2_", tellCloud}},
-    {"DiagnosticArray", {"diagnostic_msgs::msg::dds_::DiagnosticArray_", tellDiagnostics}}};
+    {"SetBool", {"std_srvs::srv::dds_::SetBool_", printCloud}},
+    {"Trigger", {"std_srvs::srv::dds_::Trigger_", printCloud}},
+    {"Image", {"sensor_msgs::msg::dds_::Image_", printCloud, putImage}},
+    {"CameraInfo", {"sensor_msgs::msg::dds_::CameraInfo_", printCloud, putInfo}},
+    {"PoseStamped", {"geometry_msgs::msg::dds_::PoseStamped_", [](Cdr& cdr) { printNumbers(cdr, 7); }}},
+    {"WrenchStamped", {"geometry_msgs::msg::dds_::WrenchStamped_", [](Cdr& cdr) { printNumbers(cdr, 6); }}},
+    {"TwistStamped", {"geometry_msgs::msg::dds_::TwistStamped_", [](Cdr& cdr) { printNumbers(cdr, 6); }}},
+    {"PointCloud2", {"sensor_msgs::msg::dds_::PointCloud2_", printCloud}},
+    {"DiagnosticArray", {"diagnostic_msgs::msg::dds_::DiagnosticArray_", printDiagnostics}}};
 
 // A line of numbers as a message. "short": one that ends within its header; "big ...": big-endian.
 inline Bytes messageOf(const Type& type, const std::string& line) {

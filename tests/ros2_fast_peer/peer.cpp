@@ -113,7 +113,7 @@ void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& 
                 FastBuffer buffer(bytes.data(), bytes.size());
                 Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
                 cdr.read_encapsulation();
-                type.tell(cdr);
+                type.print(cdr);
             }
         }
     }
@@ -135,7 +135,7 @@ void await(fast::DataReader& replies, uint64_t client, int64_t number) {
     for (bool answered = false; !answered && !inputEnded();) {
         replies.wait_for_unread_message(eprosima::fastrtps::Duration_t(0, 100'000'000));
         while (replies.take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK) {
-            answered = answered || (info.valid_data && tellReply(bytes, client, number));
+            answered = answered || (info.valid_data && printReply(bytes, client, number));
         }
     }
 }

@@ -127,7 +127,7 @@ void print(const tf2_msgs_msg_dds__TFMessage_& m) {
 
 struct Type {
     const dds_topic_descriptor_t* descriptor;
-    void (*tell)(const void* message);
+    void (*print)(const void* message);
 };
 
 template <class M>
@@ -227,7 +227,7 @@ int main(int argc, char** argv) {
         dds_sample_info_t info[1];
         while (dds_take(reader, sample, info, 1, 1) > 0) {
             if (info[0].valid_data && argc == 4) {
-                type.tell(sample[0]);
+                type.print(sample[0]);
             } else if (info[0].valid_data && !ages.add(sample[0])) {
                 ages.print();
                 return 0;

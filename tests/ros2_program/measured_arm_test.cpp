@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole program with a robot of ROS 2: its joints come from a topic, and a trajectory moves it.
 #include "tests/rig/arm_stage.h"
-#include "tests/ros2/heard.h"
 #include "tests/ros2/robot.h"
+#include "tests/ros2/topic_listener.h"
 
 #include <doctest/doctest.h>
 #include <future>
@@ -76,7 +76,7 @@ TEST_CASE("A robot whose joints stop is silent: tool and robot stand still, and 
     const Stage stage;
     setUp(stage, kReach, {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {15.0, {0, 0, 0.11}}});
     FollowingRobot robot;
-    Heard diagnostics("/diagnostics", "DiagnosticArray");
+    TopicListener diagnostics("/diagnostics", "DiagnosticArray");
     auto running = startReplay(stage);
     const auto depth = [&] { return tipDepth(robot.q); };
     const double start = depth();

@@ -2,7 +2,7 @@
 // The whole program with topics of ROS 2, in real time.
 #include "tests/rig/stage.h"
 #include "tests/ros2/client.h"
-#include "tests/ros2/heard.h"
+#include "tests/ros2/topic_listener.h"
 #include "tests/support/eventually.h"
 
 #include <csignal>
@@ -72,7 +72,7 @@ bool becomes(const Stage& stage, const std::function<bool(const json&)>& wanted)
 TEST_CASE("A realtime replay publishes the ticks that it writes to its files") {
     Stage stage;
     redWall(stage);
-    Heard wrench("/arm/wrench", "WrenchStamped"), tool("/arm/tool_pose", "PoseStamped"),
+    TopicListener wrench("/arm/wrench", "WrenchStamped"), tool("/arm/tool_pose", "PoseStamped"),
         cloud("/arm/regions", "PointCloud2");
     const ProgramRun run = runFathom(stage.command({"--realtime", "--ros2", inDomain("/arm")}));
     CHECK_MESSAGE(run.exitCode == 0, run.err);
@@ -101,7 +101,7 @@ TEST_CASE("A node of ROS 2 drives a replay through its bridge, and feels the wal
     const std::string door = (stage / "hand.door").string();
     Started bridge(
         {"guard", "ros2", "--topics", inDomain("pose=/haptic/pose,preset=falcon"), "--door", door});
-    Heard force("/haptic/wrench", "WrenchStamped");
+    TopicListener force("/haptic/wrench", "WrenchStamped");
     Peer node(ROS2_SPEAKER, {std::to_string(testDomain()), "/haptic/pose", "PoseStamped"});
     REQUIRE(node.line() == "ready");
     std::atomic<bool> stop{false}, press{false};
@@ -113,7 +113,7 @@ TEST_CASE("A node of ROS 2 drives a replay through its bridge, and feels the wal
         }
     });
     REQUIRE(force.next().any()); // the bridge runs
-    Heard tool("/fathom/tool_pose", "PoseStamped");
+    TopicListener tool("/fathom/tool_pose", "PoseStamped");
     Started engine(stage.command(
         {"--realtime", "--hand-device", door, "--ros2", inDomain("/fathom"), "--seconds", "60"}));
     CHECK(tool.next().is("base 0 0 0.5 0 0 0 1"));

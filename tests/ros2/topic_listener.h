@@ -27,10 +27,11 @@ private:
     std::vector<std::string> words_;
 };
 
-class Heard {
+class TopicListener {
 public:
     // type: without its package. Returns when it listens.
-    Heard(const std::string& topic, const std::string& type, const std::string& program = ROS2_LISTENER);
+    TopicListener(const std::string& topic, const std::string& type,
+                  const std::string& program = ROS2_LISTENER);
 
     Line next();
     // The next message for which it holds, within a minute.

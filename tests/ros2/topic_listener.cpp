@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/ros2/heard.h"
+#include "tests/ros2/topic_listener.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,16 +35,16 @@ bool Line::is(const std::string& rest) const {
     return same;
 }
 
-Heard::Heard(const std::string& topic, const std::string& type, const std::string& program)
+TopicListener::TopicListener(const std::string& topic, const std::string& type, const std::string& program)
     : peer_(program, {std::to_string(testDomain()), topic, type}) {
     REQUIRE(peer_.line() == "ready");
 }
 
-Line Heard::next() {
+Line TopicListener::next() {
     return Line(peer_.line().value_or(""));
 }
 
-Line Heard::until(const std::function<bool(const Line&)>& holds) {
+Line TopicListener::until(const std::function<bool(const Line&)>& holds) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (std::chrono::steady_clock::now() < end) {
         if (const Line line = next(); line.any() && holds(line)) {
