@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTolerance = 2.5e-7; // [m] loss of region by float32 rounding, metres from the origin
 
-struct Kept {
+struct Thinned {
     uint32_t points = 0, spheres = 0;
     double largestGrowth = 0.0; // [m]
     reference::Coverage coverage;
@@ -25,10 +25,10 @@ struct Kept {
 
 // Draws points from the union of spheres of radius R around all forbidden points and tests whether the kept
 // spheres contain them.
-Kept checkCoverage(const CloudRig& rig, uint32_t samples) {
+Thinned checkCoverage(const CloudRig& rig, uint32_t samples) {
     const auto all = reference::spheres(rig.scene(), rig.forbidden(), rig.points(), {});
     const auto kept = rig.spheres();
-    Kept k;
+    Thinned k;
     k.coverage = reference::coverage(all, kept, samples, kTolerance, 7);
     for (size_t i = 0; i < all.size(); ++i) {
         k.points += all[i].radius >= 0.0;
@@ -163,7 +163,7 @@ TEST_CASE("The kept spheres cover the whole region and none grows by more than t
         scene.filter.radius = 2;
         CloudRig rig(scene, shot.camera);
         rig.run(shot.image);
-        const Kept k = checkCoverage(rig, 6000);
+        const Thinned k = checkCoverage(rig, 6000);
         CHECK(k.coverage.holes == 0);
         CHECK(k.largestGrowth <= row.budget + 1e-8);
         CHECK(k.spheres < k.points);
@@ -185,7 +185,7 @@ TEST_CASE("Overlapping classes with different radii are covered class by class")
     rig.run(drawnImage(camera, [](int u, int v) {
         return u % 37 == 5 && v % 11 == 3 ? 0.0 : 0.6 + 0.0005 * u + 0.005 * std::sin(v * 0.05);
     }));
-    const Kept k = checkCoverage(rig, 20000);
+    const Thinned k = checkCoverage(rig, 20000);
     CHECK(k.coverage.holes == 0);
     CHECK(k.largestGrowth <= 0.0004 + 1e-8);
     CHECK(k.share() < 0.7);

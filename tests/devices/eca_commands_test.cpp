@@ -15,13 +15,13 @@ namespace {
 // Keeps the newest commands that it received, and answers only while not mute.
 struct ListeningArm : EcaSimulator {
     EcaReader frames;
-    std::array<EcaDemand, kEcaJoints> asked{};
+    std::array<EcaDemand, kEcaJoints> demands{};
     bool mute = false;
 
     void receive(std::span<const uint8_t> bytes, std::vector<uint8_t>& out) override {
         for (const uint8_t byte : bytes) {
             if (const auto frame = frames.take(byte)) {
-                asked = demandsOf(*frame);
+                demands = demandsOf(*frame);
             }
         }
         std::vector<uint8_t> answers;
@@ -31,7 +31,7 @@ struct ListeningArm : EcaSimulator {
         }
     }
     bool standsStill() const {
-        return std::all_of(asked.begin(), asked.end(), [](const EcaDemand& d) { return d.speed == 0; });
+        return std::all_of(demands.begin(), demands.end(), [](const EcaDemand& d) { return d.speed == 0; });
     }
 };
 
@@ -76,7 +76,7 @@ TEST_CASE("Every command of an ECA arm carries the current limit of the options"
     CommandRig rig;
     for (const double seconds : {0.2, 12.0}) {
         rig.run(seconds, kThere);
-        for (const EcaDemand& demand : rig.arm.asked) {
+        for (const EcaDemand& demand : rig.arm.demands) {
             CHECK(demand.currentLimit == 1234);
         }
     }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kPeriod = 0.05;
 
 // Number of writes of the watchdog in from..to [s], checked every millisecond.
-int tells(LineWatchdog& watchdog, double from, double to) {
+int stopWrites(LineWatchdog& watchdog, double from, double to) {
     int count = 0;
     for (int ms = static_cast<int>(from * 1e3); ms < static_cast<int>(to * 1e3); ++ms) {
         count += watchdog.stopDue(1e-3 * ms) ? 1 : 0;
@@ -92,18 +92,18 @@ struct Pipe {
 
 TEST_CASE("The watchdog writes nothing while the engine is alive, before it first was, or after a goodbye") {
     LineWatchdog watchdog(kPeriod);
-    CHECK(tells(watchdog, 0.0, 5.0) == 0); // the engine makes ready
+    CHECK(stopWrites(watchdog, 0.0, 5.0) == 0); // the engine makes ready
     for (int i = 0; i < 100; ++i) {
         watchdog.alive(5.0 + 0.1 * i);
-        CHECK(tells(watchdog, 5.0 + 0.1 * i, 5.1 + 0.1 * i) == 0);
+        CHECK(stopWrites(watchdog, 5.0 + 0.1 * i, 5.1 + 0.1 * i) == 0);
     }
     watchdog.goodbye();
     watchdog.close();
-    CHECK(tells(watchdog, 15.0, 17.0) == 0);
+    CHECK(stopWrites(watchdog, 15.0, 17.0) == 0);
     CHECK(watchdog.over(15.0));
     LineWatchdog unused(kPeriod);
     unused.close(); // nothing was ever commanded
-    CHECK(tells(unused, 0.0, 1.0) == 0);
+    CHECK(stopWrites(unused, 0.0, 1.0) == 0);
     CHECK(unused.over(0.0));
 }
 
@@ -114,7 +114,7 @@ TEST_CASE(
     watchdog.close();
     CHECK(watchdog.stopDue(1.01));
     CHECK_FALSE(watchdog.over(1.02));
-    CHECK(tells(watchdog, 1.02, 3.0) == 9);
+    CHECK(stopWrites(watchdog, 1.02, 3.0) == 9);
     CHECK(watchdog.over(3.0));
     CHECK(watchdog.failures() == 1);
 }
@@ -124,16 +124,16 @@ TEST_CASE("The watchdog stops the arm after a silence, releases the line when th
     LineWatchdog watchdog(kPeriod);
     watchdog.alive(1.0);
     CHECK(LineWatchdog::kSilence == 0.2); // docs/robustness.md, and what the arm's own movement is bounded by
-    CHECK(tells(watchdog, 1.0, 1.2) == 0);
-    CHECK(tells(watchdog, 1.2, 1.21) == 1);
-    CHECK(tells(watchdog, 1.21, 1.32) > 1);
+    CHECK(stopWrites(watchdog, 1.0, 1.2) == 0);
+    CHECK(stopWrites(watchdog, 1.2, 1.21) == 1);
+    CHECK(stopWrites(watchdog, 1.21, 1.32) > 1);
     watchdog.alive(1.32);
-    CHECK(tells(watchdog, 1.32, 1.5) == 0);
-    CHECK(tells(watchdog, 1.5, 9.0) > 5);
-    CHECK(tells(watchdog, 9.0, 20.0) > 200); // as long as the engine hangs
+    CHECK(stopWrites(watchdog, 1.32, 1.5) == 0);
+    CHECK(stopWrites(watchdog, 1.5, 9.0) > 5);
+    CHECK(stopWrites(watchdog, 9.0, 20.0) > 200); // as long as the engine hangs
     CHECK_FALSE(watchdog.over(20.0));
     watchdog.close();
-    CHECK(tells(watchdog, 20.0, 22.0) > 5);
+    CHECK(stopWrites(watchdog, 20.0, 22.0) > 5);
     CHECK(watchdog.over(22.0));
     CHECK(watchdog.failures() == 3);
 }

@@ -107,7 +107,7 @@ TEST_CASE("Without a colour frame close in time a depth frame is released, and a
     }
     CHECK_FALSE(pairing.next());
     CHECK(pairing.unpairedDepth().size() == 8);
-    CHECK(pairing.unpairedDepth().empty()); // handed over once
+    CHECK(pairing.unpairedDepth().empty()); // returned once
     pairing.clear();
     CHECK_FALSE(pairing.next());
 }

@@ -31,10 +31,10 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
     HapticLoop loop(cycle, fake.hand, channels, clock, {}, &trace);
     FrameLoop frames(fake.feed, channels, clock, 1.0 / 30.0, nullptr);
     REQUIRE(frames.first());
-    SceneUpdate news = frames.update();
-    news.guidanceCount = 1;
-    news.guidance[0].present = true;
-    news.guidance[0].target = at(0.0, 0.0, 0.05);
+    SceneUpdate update = frames.update();
+    update.guidanceCount = 1;
+    update.guidance[0].present = true;
+    update.guidance[0].target = at(0.0, 0.0, 0.05);
 
     uint64_t during = 0, contacts = 0;
     uint64_t query = 0;
@@ -46,8 +46,8 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
         REQUIRE(fake.answers.answer({cycle.place()}, set));
         query = set.query;
         channels.contacts.publish();
-        news.captureTime = clock.now();
-        channels.scene.back() = news;
+        update.captureTime = clock.now();
+        channels.scene.back() = update;
         channels.scene.publish();
         const uint64_t before = allocationCount();
         loop.step(clock.now());

@@ -71,7 +71,7 @@ protected:
     virtual Clock::time_point due() { return Clock::now() + std::chrono::milliseconds(1); }
     virtual void setInterface(int /*interface*/, int /*alternate*/) {}
     // True if the host is waiting for data from `endpoint`.
-    bool asked(uint8_t endpoint) const {
+    bool awaits(uint8_t endpoint) const {
         const auto waiting = waiting_.find(endpoint);
         return waiting != waiting_.end() && !waiting->second.empty();
     }

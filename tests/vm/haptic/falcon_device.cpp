@@ -130,7 +130,7 @@ void FalconDevice::command(const Bytes& packet) {
     history_.push_back(motors_);
     released_ = motors_ == kStill && before != kStill ? Clock::now() : released_;
     ++commands;
-    unasked += asked(1) ? 0 : 1;
+    unasked += awaits(1) ? 0 : 1;
     if (statusOnly || takeOne(faults.dropped)) {
         return;
     }
