@@ -88,7 +88,7 @@ ArmPosture ArmThread::inLimits(ArmPosture posture) const {
 ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
     line_->awaitWatchdog(stop);
     const double began = monotonicSeconds();
-    double heard = began;
+    double lastReport = began;
     bool logged = false;
     for (double now = began;; now = monotonicSeconds()) {
         if (!line_->watched(now)) {
@@ -96,7 +96,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
         }
         const bool ready = follower_->home(now);
         const ArmFeedback& feedback = line_->device().feedback();
-        heard = feedback.stale ? heard : now;
+        lastReport = feedback.stale ? lastReport : now;
         if (ready) {
             const ArmPosture posture = inLimits(axes_.postureOf(feedback));
             thread_ = std::thread([this] { run(); });
@@ -109,7 +109,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
         if (stop.load()) {
             throw Error(description() + ": stopped before it was ready");
         }
-        if (line_->gone() || now - heard > line_->patience()) {
+        if (line_->gone() || now - lastReport > line_->patience()) {
             throw DeviceLost(description() +
                              (line_->gone() ? ": the serial port is gone" : ": " + line_->silence()));
         }

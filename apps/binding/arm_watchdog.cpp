@@ -69,7 +69,7 @@ void ArmWatchdog::hear() noexcept {
     ssize_t got = 0;
     while ((got = ::recv(socket_, bytes, sizeof bytes, MSG_DONTWAIT)) > 0) {
         ready_ = true; // it sends nothing else
-        askedAt_ = -1.0;
+        requestedAt_ = -1.0;
     }
     ended_ = ended_ || got == 0 || (errno != EAGAIN && errno != EINTR);
 }
@@ -78,14 +78,14 @@ bool ArmWatchdog::stands(double now) noexcept {
     if (!ended_) {
         hear();
     }
-    const bool deaf = askedAt_ >= 0.0 && now - askedAt_ > kDeaf;
+    const bool deaf = requestedAt_ >= 0.0 && now - requestedAt_ > kDeaf;
     return ready_ && !ended_ && !deaf;
 }
 
 void ArmWatchdog::alive(double now) noexcept {
     if (now >= next_) {
         next_ = now + kBeat;
-        askedAt_ = askedAt_ < 0.0 ? now : askedAt_;
+        requestedAt_ = requestedAt_ < 0.0 ? now : requestedAt_;
         ::send(socket_, &kWatchdogAlive, 1,
                MSG_NOSIGNAL | MSG_DONTWAIT); // a watchdog that hangs lets its socket fill up
     }

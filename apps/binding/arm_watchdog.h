@@ -42,8 +42,8 @@ private:
     int socket_ = -1;
     pid_t process_ = -1;
     bool ready_ = false, ended_ = false;
-    double next_ = -1e9;    // [s]
-    double askedAt_ = -1.0; // [s] of the first alive() that is not answered; < 0 = none
+    double next_ = -1e9;        // [s]
+    double requestedAt_ = -1.0; // [s] of the first alive() that is not answered; < 0 = none
 };
 
 } // namespace fathom

@@ -51,7 +51,7 @@ void HaplyBridge::connect() {
     introduced_ = false;
     awaited_ = 0;
     present_ = true;
-    heardAt_ = Clock::now();
+    receivedAt_ = Clock::now();
 }
 
 void HaplyBridge::open() {
@@ -63,7 +63,7 @@ void HaplyBridge::ask(const dvec3& force) {
     service_->send(haplyForce(device_, force, introduced_ ? "" : kName));
     introduced_ = true;
     ++awaited_;
-    askedAt_ = Clock::now();
+    requestedAt_ = Clock::now();
 }
 
 // Reads an answer, if one arrives in time. The service answers in order, so a state is fresh only if no other
@@ -73,7 +73,7 @@ bool HaplyBridge::answered(std::chrono::microseconds most) {
     if (!message) {
         return false;
     }
-    heardAt_ = Clock::now();
+    receivedAt_ = Clock::now();
     ++figures_.replies;
     if (awaited_ > 1) {
         --awaited_;
@@ -102,23 +102,23 @@ bool HaplyBridge::answered(std::chrono::microseconds most) {
 // Asks again after a request without an answer. Answers that are awaited still when others have come are
 // lost.
 void HaplyBridge::giveUpLate(Clock::time_point now) {
-    if (awaited_ == 0 || now - std::max(askedAt_, heardAt_) <= kReplyTime) {
+    if (awaited_ == 0 || now - std::max(requestedAt_, receivedAt_) <= kReplyTime) {
         return;
     }
     ++figures_.late;
-    awaited_ = heardAt_ > askedAt_ ? 0 : awaited_;
+    awaited_ = receivedAt_ > requestedAt_ ? 0 : awaited_;
     ask(present_ ? endpoint_->wrench().force : dvec3(0.0));
 }
 
 void HaplyBridge::exchange() {
     endpoint_->poll();
     const auto now = Clock::now();
-    if (now - heardAt_ > kDeaf) {
+    if (now - receivedAt_ > kDeaf) {
         throw DeviceLost(place_ + ": silent");
     }
     giveUpLate(now);
     if (awaited_ == 0) {
-        if (const auto since = now - askedAt_; since < kPeriod) {
+        if (const auto since = now - requestedAt_; since < kPeriod) {
             std::this_thread::sleep_for(kPeriod - since);
             endpoint_->poll();
         }

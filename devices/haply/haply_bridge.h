@@ -59,7 +59,7 @@ private:
     std::string device_, place_;
     bool introduced_ = false, present_ = false;
     uint32_t awaited_ = 0; // requests without an answer so far
-    Clock::time_point askedAt_{}, heardAt_{};
+    Clock::time_point requestedAt_{}, receivedAt_{};
     HaplyFigures figures_;
 };
 

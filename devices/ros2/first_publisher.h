@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// The first publisher that is heard has the topic, until it is silent for kSilence. One thread.
+// The first publisher that sends owns the topic until it is silent for kSilence. One thread.
 class FirstPublisher {
 public:
     // reader, topic: for the log, which names a second publisher once.

@@ -53,8 +53,8 @@ private:
     struct Poses {
         size_t topic;
         FirstPublisher publisher;
-        bool there = false;                     // they come
-        Clock::time_point heard = Clock::now(); // the newest
+        bool there = false;                          // they come
+        Clock::time_point receivedAt = Clock::now(); // the newest
         bool lossLogged = false;
         Clock::time_point quietUntil = {}; // of the log
     };
@@ -62,7 +62,7 @@ private:
         std::optional<size_t> topic; // none: no buttons
         FirstPublisher publisher;
         std::vector<bool> down;
-        Clock::time_point heard;
+        Clock::time_point receivedAt;
     };
 
     Ros2HandRequest request_;
@@ -96,8 +96,8 @@ void GuardOfTopics::takePoses() {
             ros2::HandPose hand = ros2::handPose(taken.message->bytes());
             sample_.deviceThandle = hand.pose;
             frame_ = std::move(hand.frame);
-            figures_.late += poses_.there && secondsSince(poses_.heard) > kLate ? 1 : 0;
-            poses_.heard = Clock::now();
+            figures_.late += poses_.there && secondsSince(poses_.receivedAt) > kLate ? 1 : 0;
+            poses_.receivedAt = Clock::now();
             ++figures_.replies;
             if (!poses_.there && poses_.lossLogged) {
                 log::warn("{}: poses again", request_.pose);
@@ -120,7 +120,7 @@ void GuardOfTopics::takeButtons() {
         }
         try {
             joy_.down = ros2::joyButtons(taken.message->bytes());
-            joy_.heard = Clock::now();
+            joy_.receivedAt = Clock::now();
         } catch (const Error& e) {
             skip(request_.joy, e);
         }
@@ -128,7 +128,7 @@ void GuardOfTopics::takeButtons() {
 }
 
 uint32_t GuardOfTopics::buttons() const {
-    const bool fresh = joy_.down.size() > 0 && secondsSince(joy_.heard) <= kJoySilence;
+    const bool fresh = joy_.down.size() > 0 && secondsSince(joy_.receivedAt) <= kJoySilence;
     const auto down = [&](uint32_t button) {
         return fresh && button < joy_.down.size() && joy_.down[button];
     };
@@ -138,7 +138,7 @@ uint32_t GuardOfTopics::buttons() const {
 }
 
 void GuardOfTopics::watch() {
-    if (poses_.there && secondsSince(poses_.heard) > kSilence) {
+    if (poses_.there && secondsSince(poses_.receivedAt) > kSilence) {
         poses_.there = false;
         ++figures_.losses;
         if (Clock::now() >= poses_.quietUntil) {

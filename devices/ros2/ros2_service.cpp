@@ -53,7 +53,7 @@ void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>
 void Ros2Service::sendReplies() {
     const bool all = replies_.subscribers() >= inbox_.publishers(requests_);
     while (!waiting_.empty() && (all || waiting_.size() > kMaxWaiting ||
-                                 monotonicSeconds() - waiting_.front().asked > kDiscovery)) {
+                                 monotonicSeconds() - waiting_.front().queuedAt > kDiscovery)) {
         replies_.write(waiting_.front().bytes);
         waiting_.pop_front();
     }

@@ -31,7 +31,7 @@ public:
 private:
     struct Reply {
         std::vector<uint8_t> bytes;
-        double asked; // [s] CLOCK_MONOTONIC
+        double queuedAt; // [s] CLOCK_MONOTONIC
     };
     void answer(const RawMessage& request, const std::function<std::string(MessageCursor&)>& obey);
     void sendReplies();

@@ -47,11 +47,11 @@ int EcaArm::mostMoved(size_t joint, double silence) const noexcept {
     return static_cast<int>(std::min(kMaxCounts, most / radiansPerCount(joint)));
 }
 
-void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
+void EcaArm::takeStatus(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
     for (size_t j = 0; j < kEcaJoints; ++j) {
         // Shortest difference modulo 2^16: valid while a joint moves less than half the range between frames.
         const auto moved = static_cast<int16_t>(status[j].encoder - encoder_[j]);
-        if (any_ && std::abs(int{moved}) > mostMoved(j, now - heardAt_)) {
+        if (any_ && std::abs(int{moved}) > mostMoved(j, now - receivedAt_)) {
             loseHome();
         }
         counts_[j] += any_ ? moved : 0;
@@ -62,20 +62,20 @@ void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) 
         feedback_.current[j] = std::max(0.0, kAmpere * current_[j] - 0.2e-3);
     }
     any_ = true;
-    heardAt_ = now;
+    receivedAt_ = now;
 }
 
 void EcaArm::receive(double now) noexcept {
     readPackets(port_, reader_, [&](const EcaBytes& frame) {
         if (frame != sent_) { // a half-duplex line echoes sent bytes
-            heard(statusOf(frame), now);
+            takeStatus(statusOf(frame), now);
         }
     });
     feedback_.damaged = reader_.damaged();
 }
 
 void EcaArm::watch(double now, const ArmCommand& command) noexcept {
-    feedback_.age = any_ ? now - heardAt_ : std::numeric_limits<double>::infinity();
+    feedback_.age = any_ ? now - receivedAt_ : std::numeric_limits<double>::infinity();
     feedback_.stale = !(feedback_.age <= options_.staleAfter);
     for (size_t j = 0; j < kEcaJoints; ++j) {
         const bool over = current_[j] > options_.mostCurrent;

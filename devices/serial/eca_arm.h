@@ -39,7 +39,7 @@ public:
 
 private:
     void receive(double now) noexcept;
-    void heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept;
+    void takeStatus(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept;
     int mostMoved(size_t joint, double silence) const noexcept;
     void loseHome() noexcept;
     void watch(double now, const ArmCommand& command) noexcept;
@@ -57,7 +57,7 @@ private:
     std::array<double, kEcaJoints> overSince_{};
     size_t homing_ = 0; // joints with a lower index are homed
     bool any_ = false;  // a frame was received
-    double heardAt_ = -1e9, nextCommand_ = -1e9;
+    double receivedAt_ = -1e9, nextCommand_ = -1e9;
     EcaBytes sent_{};
 };
 

@@ -42,7 +42,7 @@ void receive(int engine, LineWatchdog& watchdog) noexcept {
 } // namespace
 
 void LineWatchdog::alive(double now) noexcept {
-    heardAt_ = now;
+    receivedAt_ = now;
     stoppingSince_ = -1.0;
 }
 
@@ -54,7 +54,7 @@ void LineWatchdog::close() noexcept {
 }
 
 bool LineWatchdog::stopDue(double now) noexcept {
-    const bool silent = heardAt_ >= 0.0 && (closed_ || now - heardAt_ > kSilence);
+    const bool silent = receivedAt_ >= 0.0 && (closed_ || now - receivedAt_ > kSilence);
     if (ended_ || !silent) {
         return false;
     }
@@ -72,7 +72,7 @@ bool LineWatchdog::stopDue(double now) noexcept {
 
 bool LineWatchdog::over(double now) const noexcept {
     const bool stopped = stoppingSince_ >= 0.0 && now - stoppingSince_ > kStopDuration;
-    return ended_ || (closed_ && (heardAt_ < 0.0 || stopped));
+    return ended_ || (closed_ && (receivedAt_ < 0.0 || stopped));
 }
 
 int watchLine(int engine, int line, const StandStill& still) noexcept {

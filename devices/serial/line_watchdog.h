@@ -34,7 +34,7 @@ public:
 
 private:
     double period_;
-    double heardAt_ = -1.0, stoppingSince_ = -1.0, next_ = 0.0; // [s]; negative = never
+    double receivedAt_ = -1.0, stoppingSince_ = -1.0, next_ = 0.0; // [s]; negative = never
     bool ended_ = false, closed_ = false;
     int failures_ = 0;
 };

@@ -32,7 +32,7 @@ ReachArm::ReachArm(SerialPort& port, const ReachOptions& options, ReachKind kind
     if (options_.period <= 0.0) {
         options_.period = kind == ReachKind::Alpha5 ? 0.02 : 0.03;
     }
-    heardAt_.fill(kNever);
+    receivedAt_.fill(kNever);
     currentAt_.fill(kNever);
     overSince_.fill(std::numeric_limits<double>::infinity());
     feedback_.homed = true;
@@ -64,7 +64,7 @@ bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
     return false;
 }
 
-void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
+void ReachArm::takePacket(const ReachPacket& packet, double now) noexcept {
     const bool echo = isEcho(packet, now);
     const auto value = packet.asFloat();
     const auto device = std::find(devices_.begin(), devices_.end(), packet.device);
@@ -74,7 +74,7 @@ void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
     const auto axis = static_cast<size_t>(device - devices_.begin());
     if (packet.id == kPosition) {
         feedback_.position[axis] = static_cast<double>(*value) / perUnit(axis);
-        heardAt_[axis] = now;
+        receivedAt_[axis] = now;
     } else if (packet.id == kCurrent) {
         feedback_.current[axis] = static_cast<double>(*value) * 1e-3;
         currentAt_[axis] = now;
@@ -82,20 +82,20 @@ void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
 }
 
 void ReachArm::receive(double now) noexcept {
-    readPackets(port_, reader_, [&](const ReachPacket& packet) { heard(packet, now); });
+    readPackets(port_, reader_, [&](const ReachPacket& packet) { takePacket(packet, now); });
     feedback_.damaged = reader_.damaged();
 }
 
 void ReachArm::watch(double now, const ArmCommand& command) noexcept {
     const auto axes = static_cast<std::ptrdiff_t>(devices_.size());
-    const double oldest = *std::min_element(heardAt_.begin(), heardAt_.begin() + axes);
+    const double oldest = *std::min_element(receivedAt_.begin(), receivedAt_.begin() + axes);
     feedback_.age = oldest == kNever ? std::numeric_limits<double>::infinity() : now - oldest;
     const auto unlimited = std::min_element(currentAt_.begin(), currentAt_.begin() + axes);
-    const bool heard = feedback_.age <= options_.staleAfter;
-    feedback_.lacksCurrent = heard && now - *unlimited > options_.currentStaleAfter
+    const bool fresh = feedback_.age <= options_.staleAfter;
+    feedback_.lacksCurrent = fresh && now - *unlimited > options_.currentStaleAfter
                                  ? static_cast<int>(unlimited - currentAt_.begin())
                                  : -1;
-    feedback_.stale = !heard || feedback_.lacksCurrent >= 0;
+    feedback_.stale = !fresh || feedback_.lacksCurrent >= 0;
     for (size_t k = 0; k < devices_.size(); ++k) {
         const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
         overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();

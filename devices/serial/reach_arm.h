@@ -48,7 +48,7 @@ private:
         double at = -1e9; // [s]
     };
     void receive(double now) noexcept;
-    void heard(const ReachPacket& packet, double now) noexcept;
+    void takePacket(const ReachPacket& packet, double now) noexcept;
     bool isEcho(const ReachPacket& packet, double now) noexcept;
     void watch(double now, const ArmCommand& command) noexcept;
     void sendAll(double now, const ArmCommand& command) noexcept;
@@ -62,10 +62,10 @@ private:
     std::span<const uint8_t> devices_;
     ReachReader reader_;
     ArmFeedback feedback_;
-    std::array<double, kMaxArmAxes> heardAt_{};   // [s] of each position; -1e9 = never
-    std::array<double, kMaxArmAxes> currentAt_{}; // [s] of each current; -1e9 = never
-    std::array<double, kMaxArmAxes> overSince_{}; // [s]; infinite = not over
-    std::array<Sent, 48> sent_{};                 // ring buffer
+    std::array<double, kMaxArmAxes> receivedAt_{}; // [s] of each position; -1e9 = never
+    std::array<double, kMaxArmAxes> currentAt_{};  // [s] of each current; -1e9 = never
+    std::array<double, kMaxArmAxes> overSince_{};  // [s]; infinite = not over
+    std::array<Sent, 48> sent_{};                  // ring buffer
     size_t nextSent_ = 0;
     bool echoes_ = false;       // a request was echoed
     double nextCommand_ = -1e9; // [s]

@@ -34,16 +34,16 @@ private:
     bool gone_ = false;
 };
 
-// Reads pending bytes. Calls heard(packet) for each packet that they complete in `reader`.
-template <class Reader, class Heard>
-void readPackets(SerialPort& port, Reader& reader, const Heard& heard) {
+// Reads pending bytes. Calls handle(packet) for each packet that they complete in `reader`.
+template <class Reader, class Handler>
+void readPackets(SerialPort& port, Reader& reader, const Handler& handle) {
     std::array<uint8_t, 256> bytes{};
     size_t got = 0;
     do {
         got = port.read(bytes);
         for (size_t i = 0; i < got; ++i) {
             if (const auto packet = reader.take(bytes[i])) {
-                heard(*packet);
+                handle(*packet);
             }
         }
     } while (got > 0);

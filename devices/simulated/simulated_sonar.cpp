@@ -117,12 +117,12 @@ std::optional<Frame> SimulatedSonar::next() {
             echo.range +
             (noise ? along * static_cast<double>(normal_(static_cast<uint32_t>(bits >> 44))) : 0.0);
         const double units = std::nearbyint(range * axisShare_[i] / options_.metresPerUnit);
-        const bool heard = !drop && echo.range > 0.0 && units >= 1.0 && units <= 65535.0;
+        const bool measured = !drop && echo.range > 0.0 && units >= 1.0 && units <= 65535.0;
         const float speckle =
             noise ? 1.0f + kSpeckle * normal_.coarse(static_cast<uint32_t>(bits >> 30)) : 1.0f;
         const auto grey = static_cast<uint32_t>(
-            heard ? 255.0f * std::clamp(echo.strength * speckle, 0.0f, 1.0f) + 0.5f : 0.0f);
-        slot->depth()[i] = heard ? static_cast<uint16_t>(units) : uint16_t{0};
+            measured ? 255.0f * std::clamp(echo.strength * speckle, 0.0f, 1.0f) + 0.5f : 0.0f);
+        slot->depth()[i] = measured ? static_cast<uint16_t>(units) : uint16_t{0};
         slot->colour()[i] = 0xff000000u | grey << 16 | grey << 8 | grey;
     }
     Frame::Content content;

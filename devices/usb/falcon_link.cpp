@@ -17,8 +17,8 @@ bool FalconLink::answers() {
     setFalconLine(port_);
     stream_.clear();
     awaiting_ = false;
-    heardAt_ = Clock::now();
-    const auto until = heardAt_ + kFirstAnswer;
+    receivedAt_ = Clock::now();
+    const auto until = receivedAt_ + kFirstAnswer;
     while (Clock::now() < until) {
         if (exchange({}, std::chrono::milliseconds(5))) {
             return true;
@@ -57,14 +57,14 @@ bool FalconLink::exchange(const FalconCommand& command, std::chrono::microsecond
         figures_.surplus += fresh - (awaiting_ ? 1 : 0);
         figures_.replies += fresh;
         awaiting_ = false;
-        heardAt_ = now;
+        receivedAt_ = now;
         return true;
     }
     if (awaiting_ && now - sentAt_ > kReplyTime) {
         ++figures_.late;
         awaiting_ = false;
     }
-    if (now - heardAt_ > kDeaf) {
+    if (now - receivedAt_ > kDeaf) {
         throw DeviceLost("falcon: no answer for half a second");
     }
     return false;
@@ -73,8 +73,8 @@ bool FalconLink::exchange(const FalconCommand& command, std::chrono::microsecond
 void FalconLink::stop() noexcept {
     try {
         awaiting_ = false; // zero follows any command in flight
-        heardAt_ = Clock::now();
-        const auto until = heardAt_ + kLastAnswer;
+        receivedAt_ = Clock::now();
+        const auto until = receivedAt_ + kLastAnswer;
         int answered = 0; // the first answer may belong to an earlier command
         while (answered < 2 && Clock::now() < until) {
             answered += exchange({}, std::chrono::milliseconds(1)) ? 1 : 0;

@@ -47,7 +47,7 @@ private:
     FalconStream stream_;
     std::vector<uint8_t> received_;
     bool awaiting_ = false;
-    Clock::time_point sentAt_{}, heardAt_{};
+    Clock::time_point sentAt_{}, receivedAt_{};
     FalconFigures figures_;
 };
 
