@@ -20,9 +20,9 @@ namespace {
 
 // Over 5 mm or 0.57 degrees: more than noise.
 bool isMoved(const Pose& a, const Pose& b) {
-    constexpr double kMinWay = 0.005, kMinTurn = 0.01; // [m], [rad]
+    constexpr double kMinTravel = 0.005, kMinTurn = 0.01; // [m], [rad]
     const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
-    return glm::distance(a.position, b.position) > kMinWay || 2.0 * std::acos(cosine) > kMinTurn;
+    return glm::distance(a.position, b.position) > kMinTravel || 2.0 * std::acos(cosine) > kMinTurn;
 }
 
 // Some places over the whole topic, with several messages in a row at each: programs take turns on one topic.

@@ -73,8 +73,8 @@ bool playsClouds(MessageFile& file, const SourceOptions& options) {
         return t.type == ros::kCloudType && !t.messages.empty();
     };
     if (!options.depth.empty()) {
-        const MessageTopic* asked = file.find(options.depth);
-        return asked != nullptr && isCloud(*asked);
+        const MessageTopic* requested = file.find(options.depth);
+        return requested != nullptr && isCloud(*requested);
     }
     if (std::none_of(topics.begin(), topics.end(), isCloud)) {
         return false;
@@ -111,7 +111,7 @@ void CloudCamera::checkOptions() const {
     }
 }
 
-// The asked topic; else the first organised one of the best: a camera's own, with colour, named as points.
+// The requested topic; else the first organised one of the best: a camera's own, with colour, named as points.
 void CloudCamera::chooseTopic() {
     using Score = std::tuple<bool, bool, bool>;
     std::string fault, others;

@@ -18,22 +18,22 @@ constexpr const char* kImageType = "sensor_msgs/Image";
 constexpr const char* kInfoType = "sensor_msgs/CameraInfo";
 constexpr const char* kCompressedType = "sensor_msgs/CompressedImage";
 
-// The camera_info of the camera, or the one that is asked for: that is depth's, and of others only without
+// The camera_info of the camera, or the requested one: that is depth's, and of others only without
 // one of their own. Null = none, for the reason in stream.noLens.
-const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, ImageStream& stream) {
+const MessageTopic* infoOf(const MessageFile& file, const std::string& requested, ImageStream& stream) {
     auto names = lensTopics(stream.name);
-    if (!asked.empty()) {
+    if (!requested.empty()) {
         names.resize(stream.content == ros::Content::Depth ? 0 : names.size());
-        names.push_back(asked);
+        names.push_back(requested);
     }
     std::string why = names.front() + ": missing";
     stream.infoless = true;
     for (const std::string& name : names) {
         if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
             stream.infoless = false;
-            if (name == asked && topic->type != kInfoType) {
+            if (name == requested && topic->type != kInfoType) {
                 stream.noLens =
-                    "info: " + asked + " is " + topic->type + " (allowed: a topic of " + kInfoType + ")";
+                    "info: " + requested + " is " + topic->type + " (allowed: a topic of " + kInfoType + ")";
                 return nullptr;
             }
             return topic;
@@ -119,8 +119,8 @@ std::string whyNotLens(const Intrinsics& lens, const ImageStream& stream) {
                              : "distortion (allowed: coefficients that can be inverted over the whole image)";
 }
 
-void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) {
-    const MessageTopic* topic = infoOf(file, asked, stream);
+void readLens(MessageFile& file, const std::string& requested, ImageStream& stream) {
+    const MessageTopic* topic = infoOf(file, requested, stream);
     if (topic == nullptr) {
         return;
     }

@@ -95,7 +95,7 @@ std::vector<NamedImage> imagesOf(const std::vector<NamedFile>& files, const std:
     return found;
 }
 
-bool tellTimes(const std::vector<NamedImage>& images) {
+bool haveTimeNames(const std::vector<NamedImage>& images) {
     return std::ranges::all_of(images, [](const NamedImage& image) { return isDateOrTime(image.all); });
 }
 
@@ -229,7 +229,7 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
 std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
     const std::vector<NamedImage> found = imagesOf(depthFilesIn(depth), {});
     warnIfUnpadded(depth.folder, found);
-    const bool times = tellTimes(found);
+    const bool times = haveTimeNames(found);
     if (times) {
         refuseViews(depth.folder, found);
     }
@@ -261,7 +261,7 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     warnIfUnpadded(depth.folder, depthImages);
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);
-    if (tellTimes(depthImages) && tellTimes(colourImages)) {
+    if (haveTimeNames(depthImages) && haveTimeNames(colourImages)) {
         refuseViews(depth.folder, depthImages);
         const Match all = matchBy(depthImages, colourImages, &NamedImage::all);
         const auto isBetter = [](const Match& other, const Match& than) {

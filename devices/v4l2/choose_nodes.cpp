@@ -13,9 +13,9 @@ namespace {
 constexpr const char* kNeedsName =
     "a depth format (Z16, INZI), or format=Y16, Y12, Y10 or Y10B if these carry depth";
 
-uint32_t depthFormatOf(const VideoNode& node, uint32_t asked) {
-    if (asked != 0) {
-        return depthLayout(asked) && node.offers(asked) ? asked : 0;
+uint32_t depthFormatOf(const VideoNode& node, uint32_t requested) {
+    if (requested != 0) {
+        return depthLayout(requested) && node.offers(requested) ? requested : 0;
     }
     for (const uint32_t fourcc : declaredDepthFormats()) {
         if (node.offers(fourcc)) {
@@ -59,10 +59,10 @@ VideoNode openDepth(const CameraRequest& request, const std::optional<KnownCamer
 }
 
 // Rank of the node's best colour format in the list of formats; end of the list = none.
-size_t colourRank(const VideoNode& node, uint32_t asked) {
+size_t colourRank(const VideoNode& node, uint32_t requested) {
     const auto all = colourFormats();
     for (size_t i = 0; i < all.size(); ++i) {
-        if ((asked == 0 || asked == all[i]) && node.offers(all[i])) {
+        if ((requested == 0 || requested == all[i]) && node.offers(all[i])) {
             return i;
         }
     }

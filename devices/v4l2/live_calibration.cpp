@@ -16,10 +16,10 @@ VideoSize sizeOf(const Intrinsics& lens) {
     return {lens.width, lens.height};
 }
 
-void checkSize(const CameraRequest& request, const char* field, const std::optional<VideoSize>& asked,
+void checkSize(const CameraRequest& request, const char* field, const std::optional<VideoSize>& requested,
                const Intrinsics& lens) {
-    if (asked && *asked != sizeOf(lens)) {
-        throw BadInput(request.text, field, sizeName(*asked),
+    if (requested && *requested != sizeOf(lens)) {
+        throw BadInput(request.text, field, sizeName(*requested),
                        sizeName(sizeOf(lens)) + ", the size that " + request.intrinsics.string() + " is for");
     }
 }
