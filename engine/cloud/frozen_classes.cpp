@@ -29,8 +29,8 @@ bool isFrozen(const Scene& scene, uint32_t row) {
 
 } // namespace
 
-FrozenClasses::Kept FrozenClasses::take(const HostFixtures& set, uint32_t row) {
-    Kept kept{set.origin, {}, {}};
+FrozenClasses::FrozenClass FrozenClasses::take(const HostFixtures& set, uint32_t row) {
+    FrozenClass kept{set.origin, {}, {}};
     const uint32_t moved = 2u * set.camera.depth.pixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {
@@ -45,32 +45,32 @@ FrozenClasses::Kept FrozenClasses::take(const HostFixtures& set, uint32_t row) {
     return kept;
 }
 
-// After any change of kept_ or origin_.
+// After any change of classes_ or origin_.
 void FrozenClasses::join() {
     auto all = std::make_shared<RegionSpheres>();
-    for (const auto& [row, kept] : kept_) {
+    for (const auto& [row, kept] : classes_) {
         const size_t begin = all->size();
         append(*all, kept.spheres);
         moveBy(*all, begin, kept.origin - origin_);
     }
-    spheres_ = kept_.empty() ? nullptr : std::move(all);
+    spheres_ = classes_.empty() ? nullptr : std::move(all);
     ++version_;
 }
 
 void FrozenClasses::placeOrigin(const dvec3& origin) {
     origin_ = origin;
-    if (!kept_.empty()) {
+    if (!classes_.empty()) {
         join();
     }
 }
 
 bool FrozenClasses::covers(const Scene& scene) {
-    if (std::erase_if(kept_, [&](const auto& kept) { return !isFrozen(scene, kept.first); }) > 0) {
+    if (std::erase_if(classes_, [&](const auto& kept) { return !isFrozen(scene, kept.first); }) > 0) {
         join();
     }
     bool all = true;
     for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
-        all = all && (!isFrozen(scene, row) || kept_.contains(row));
+        all = all && (!isFrozen(scene, row) || classes_.contains(row));
     }
     return all;
 }
@@ -78,27 +78,27 @@ bool FrozenClasses::covers(const Scene& scene) {
 void FrozenClasses::apply(HostFixtures& set, const Scene& scene) {
     if (!covers(scene)) {
         for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
-            if (isFrozen(scene, row) && !kept_.contains(row)) {
-                kept_.emplace(row, take(set, row));
+            if (isFrozen(scene, row) && !classes_.contains(row)) {
+                classes_.emplace(row, take(set, row));
             }
         }
         join();
     }
-    if (kept_.empty()) {
+    if (classes_.empty()) {
         return;
     }
     RegionSpheres& spheres = set.spheres;
     size_t live = 0;
     for (size_t i = 0; i < spheres.size(); ++i) {
-        if (!kept_.contains(spheres.fixture[i])) {
+        if (!classes_.contains(spheres.fixture[i])) {
             spheres.replace(live++, spheres, i);
         }
     }
     spheres.resize(live);
     append(spheres, *spheres_);
     for (GuidancePose& guidance : set.guidance) {
-        const auto kept = kept_.find(guidance.fixture);
-        guidance = kept != kept_.end() && kept->second.guidance ? *kept->second.guidance : guidance;
+        const auto kept = classes_.find(guidance.fixture);
+        guidance = kept != classes_.end() && kept->second.guidance ? *kept->second.guidance : guidance;
     }
 }
 

@@ -30,15 +30,15 @@ public:
     uint64_t version() const { return version_; }
 
 private:
-    struct Kept {
+    struct FrozenClass {
         dvec3 origin; // [m] of `spheres`, base frame: moved ones would be rounded
         RegionSpheres spheres;
         std::optional<GuidancePose> guidance;
     };
-    static Kept take(const HostFixtures& set, uint32_t row);
+    static FrozenClass take(const HostFixtures& set, uint32_t row);
     void join();
 
-    std::map<uint32_t, Kept> kept_;                // by row of Scene::fixtures
+    std::map<uint32_t, FrozenClass> classes_;      // by row of Scene::fixtures
     std::shared_ptr<const RegionSpheres> spheres_; // all of them, by row
     uint64_t version_ = 0;
     dvec3 origin_{0.0};

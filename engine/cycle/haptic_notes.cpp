@@ -24,10 +24,10 @@ constexpr double kShallow = 0.01;                      // [m] inside a region
 constexpr double kUnstableTimes = 2.0; // the passive bound; less is usually stable in a hand that holds
 constexpr double kNearTarget = 0.1, kMinPullShare = 0.25; // [m]; of guidance_pull.force
 
-void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> asked, double device,
-               const char* unit, const std::string& name) {
-    if (asked && *asked > device) {
-        notes.push_back(std::string("haptics.") + field + ": " + significant(*asked, 4) + " " + unit +
+void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> requested,
+               double device, const char* unit, const std::string& name) {
+    if (requested && *requested > device) {
+        notes.push_back(std::string("haptics.") + field + ": " + significant(*requested, 4) + " " + unit +
                         " asked, " + significant(device, 4) + " " + unit + " used: the limit of device " +
                         name);
     }
@@ -59,13 +59,13 @@ void noteSpeed(std::vector<std::string>& notes, const std::string& fields, doubl
 
 void noteTurn(std::vector<std::string>& notes, const Scene& scene) {
     const HapticOptions options = handOptions(scene);
-    const std::optional<double> asked = options.coupling.rotationalStiffness;
-    if (!asked) {
+    const std::optional<double> requested = options.coupling.rotationalStiffness;
+    if (!requested) {
         return;
     }
     const Springs springs = makeSprings(options.device, options.coupling);
-    if (springs.rotationalStiffness != *asked) {
-        notes.push_back("haptics.rotational_stiffness: " + significant(*asked, 4) + " N m/rad asked, " +
+    if (springs.rotationalStiffness != *requested) {
+        notes.push_back("haptics.rotational_stiffness: " + significant(*requested, 4) + " N m/rad asked, " +
                         significant(springs.rotationalStiffness, 4) + " N m/rad used: with a stiffness of " +
                         significant(springs.stiffness, 4) + " N/m, from " +
                         significant(Springs::kMinRadius * Springs::kMinRadius, 4) + " to " +

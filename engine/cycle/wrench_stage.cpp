@@ -140,11 +140,12 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
 }
 
 // Reports the delivered wrench without guidance and damper, each scaled as the size limit scaled it.
-void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& requested,
                                     const Wrench& sized, const Wrench& delivered) noexcept {
     const double ramp = ramps_.fadeGain();
     const Wrench& pull = input.pull;
-    const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
+    const double force = shareOf(sized.force, requested.force),
+                 torque = shareOf(sized.torque, requested.torque);
     const Wrench guided = onActuatedAxes(input, {ramp * force * pull.force, ramp * torque * pull.torque});
     const Wrench damped = onActuatedAxes(input, {force * damper.force, torque * damper.torque});
     passivity_.delivered(
@@ -207,11 +208,11 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench wanted = sumOf(contact, input.pull);
     const Wrench smooth = scaled(smoothed(input, wanted), ramps_.fadeGain());
     const Wrench damper = passivityWrench(input, reaction);
-    const Wrench asked = sumOf(smooth, damper);
+    const Wrench requested = sumOf(smooth, damper);
     // A ramp is felt from its beginning, also where the spring is beyond the limits.
     const double limitScale = std::min(ramps_.limitScale(), ramps_.fadeGain());
     const Wrench sized =
-        limitSize(asked, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
+        limitSize(requested, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
     Output out;
     out.wrench.force =
         slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
@@ -231,7 +232,7 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const auto projected = projectOnAxes(out.wrench, input.baseRhandle, options_.device.actuated);
     out.delivered = projected.delivered;
     out.residual = projected.residual;
-    reportToPassivity(input, damper, asked, sized, projected.delivered);
+    reportToPassivity(input, damper, requested, sized, projected.delivered);
     return out;
 }
 

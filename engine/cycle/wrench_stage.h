@@ -82,7 +82,7 @@ private:
     Wrench smoothed(const WrenchInput& input, const Wrench& wanted) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;
-    void reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+    void reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& requested,
                            const Wrench& sized, const Wrench& delivered) noexcept;
     uint32_t causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
                      const Wrench& slewed) const noexcept;

@@ -17,7 +17,7 @@ constexpr double kFrameSlack = 1.25;    // frame intervals to wait for the next 
 constexpr double kMinMixLength = 0.3;   // directions that differ more than that are not mixed
 constexpr double kTurnedLoss = 2.0;     // [N] a larger loss that turns the reaction fades
 constexpr double kHeldShare = 0.05;     // of held_, added to a small spring: it would end held_ at once
-constexpr double kSameWay = 0.8;        // cosine between a reaction and the former one, which it continues
+constexpr double kSameDirection = 0.8;  // cosine between a reaction and the former one, which it continues
 
 } // namespace
 
@@ -68,7 +68,7 @@ void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexc
 bool Reaction::beginElsewhere(const Wrench& wanted, const ReactionInput& input) noexcept {
     const double size = metricSize(wanted, k_), left = interval_ - sinceData_;
     if (!ended_ || !(held_ > kMinFelt) || !(left > 0.0) || !(size > kMinFelt) ||
-        metricProduct(lastFelt_, wanted, k_) > kSameWay * size * lastFeltSize_) {
+        metricProduct(lastFelt_, wanted, k_) > kSameDirection * size * lastFeltSize_) {
         return false;
     }
     fade_.begin(limitSize(lastFelt_, input.forceLimit, input.torqueLimit), 0.0, k_, left);
@@ -83,7 +83,7 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
     const double size = metricSize(wanted, k_), band = SurfaceNoise::kBand * input.springs.stiffness;
     if (fade_.active()) {
         if (size >= lastFeltSize_ &&
-            metricProduct(wanted, fade_.lost(), k_) > kSameWay * size * fade_.size()) {
+            metricProduct(wanted, fade_.lost(), k_) > kSameDirection * size * fade_.size()) {
             fade_.end();
             size_ = lastFeltSize_;
             noise_.settleAt(wanted);
@@ -96,7 +96,7 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
         return;
     }
     const double along = metricProduct(lastFelt_, wanted, k_);
-    const bool turned = size > kMinFelt && along > 0.0 && along <= kSameWay * size * lastFeltSize_;
+    const bool turned = size > kMinFelt && along > 0.0 && along <= kSameDirection * size * lastFeltSize_;
     const double lost = lastFeltSize_ - byHand - size;
     if (pushed() && ((input.lags && lost > band) || (turned && lost > std::min(band, kTurnedLoss)))) {
         beginFade(wanted, input);
@@ -126,7 +126,7 @@ double Reaction::heldBack(const Wrench& way, double wanted, double byHand, doubl
         return held_ = 0.0;
     }
     const double before = metricProduct(lastFelt_, way, k_) / length;
-    if (pushed() && before > kSameWay * lastFeltSize_) {
+    if (pushed() && before > kSameDirection * lastFeltSize_) {
         held_ = std::max(held_, std::min(before - byHand, rendered) - wanted);
     }
     ended_ = !(wanted > kMinFelt);

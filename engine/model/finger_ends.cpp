@@ -12,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kTells = 1e-3; // [m] less does not tell
+constexpr double kLeastMotion = 1e-3; // [m] a smaller change of distance decides nothing
 
 // Mean distance of the leaves of a group, which move together, from those of all other fingers; of a group
 // without others, from what carries it. Other groups are half closed.
@@ -109,10 +109,11 @@ std::vector<std::string> chooseFingerEnds(ArmModel& model, const ArmOptions& opt
         }
         const std::string& root = ties.at(wanted.joint).root;
         const double closing = given.count(root) == 0 ? closingOf(model, groups[root]) : 0.0;
-        for (const uint32_t f : closing < -kTells ? groups[root] : std::vector<uint32_t>()) {
+        for (const uint32_t f : closing < -kLeastMotion ? groups[root] : std::vector<uint32_t>()) {
             std::swap(model.fingers[f].open, model.fingers[f].closed);
         }
-        notes.push_back(endsWarning(wanted.joint, named->open, named->closed, std::abs(closing) > kTells));
+        notes.push_back(
+            endsWarning(wanted.joint, named->open, named->closed, std::abs(closing) > kLeastMotion));
     }
     return notes;
 }
