@@ -10,23 +10,23 @@ bool ArmFollower::home(double now) noexcept {
     return device_.feedback().homed && !device_.feedback().stale;
 }
 
-ArmState ArmFollower::stateOf(bool asked) const noexcept {
+ArmState ArmFollower::stateOf(bool follow) const noexcept {
     const ArmFeedback& feedback = device_.feedback();
     return feedback.stale        ? ArmState::Silent
            : !feedback.homed     ? ArmState::NotHomed
            : feedback.overloaded ? ArmState::Overloaded
            : behind_             ? ArmState::Behind
-           : asked               ? ArmState::Follows
+           : follow              ? ArmState::Follows
                                  : ArmState::Held;
 }
 
 ArmStatus ArmFollower::exchange(double now, const ArmSetpoint& setpoint, double setpointAge) noexcept {
-    const bool asked = !setpoint.hold && setpointAge <= kSetpointStale;
+    const bool follow = !setpoint.hold && setpointAge <= kSetpointStale;
     if (setpoint.off) {
         device_.reset();
     }
     // Hold while positions are not valid: homing during a run would move blindly to the stops.
-    command_.hold = !asked || behind_ || !device_.feedback().homed;
+    command_.hold = !follow || behind_ || !device_.feedback().homed;
     if (command_.hold) {
         command_.position = device_.feedback().position; // also for axes without a joint
     } else {
@@ -40,11 +40,11 @@ ArmStatus ArmFollower::exchange(double now, const ArmSetpoint& setpoint, double 
     status.age = feedback.age;
     status.damaged = feedback.damaged;
     status.lag = status.known ? axes_.lag(setpoint.posture, status.posture) : 0.0;
-    const bool lags = status.known && asked && status.lag > 1.0;
+    const bool lags = status.known && follow && status.lag > 1.0;
     lagging_ = !lags ? 0.0 : lagging_ > 0.0 ? lagging_ : now;
     behind_ = behind_ ? !(status.known && status.lag < kBehindOver)
                       : lagging_ > 0.0 && now - lagging_ > kBehindTime;
-    status.state = stateOf(asked);
+    status.state = stateOf(follow);
     return status;
 }
 

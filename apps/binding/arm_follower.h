@@ -27,7 +27,7 @@ public:
     static constexpr double kBehindOver = 0.25; // share of the allowed lag below which the arm follows again
 
 private:
-    ArmState stateOf(bool asked) const noexcept;
+    ArmState stateOf(bool follow) const noexcept;
 
     ArmDevice& device_;
     ArmAxes axes_;

@@ -48,7 +48,7 @@ void Ros2Commands::receiveTopics() {
     requests_.frozen = freeze ? freeze : requests_.frozen;
 }
 
-// The reply says that the request was handed over.
+// The reply confirms that the request was queued.
 void Ros2Commands::serve() {
     const auto set = [this](std::optional<bool>& request, const char* on, const char* off) {
         return [this, &request, on, off](MessageCursor& message) {

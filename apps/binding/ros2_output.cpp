@@ -104,7 +104,7 @@ private:
     RunTotals totals_;
     const HostFixtures* set_ = nullptr;
     double regionsAt_ = -kRegionRepeat; // [s] time of the run
-    uint64_t generation_ = 0;           // of the regions handed over
+    uint64_t generation_ = 0;           // of the newest queued regions
     // Thread of this class.
     std::chrono::steady_clock::time_point tickAt_; // of the newest tick
     bool moves_ = false;                           // ticks came since the last rest message

@@ -39,7 +39,7 @@ struct Ros2Joint {
 
 // Regions and shapes that are active now.
 struct Ros2Regions {
-    uint64_t time = 0;                     // [ns] UTC, when they were handed over
+    uint64_t time = 0;                     // [ns] UTC, when they were queued
     std::vector<ros2::RegionPoint> points; // base frame
     std::vector<Shape> shapes;
 };

@@ -54,10 +54,10 @@ void RunObservers::setShapes(std::span<const Shape> shapes) {
 RemoteRequests RunObservers::takeRequests() {
     RemoteRequests all;
     for (const auto& observer : all_) {
-        const RemoteRequests asked = observer->takeRequests();
-        all.forcesOff = all.forcesOff || asked.forcesOff;
-        all.guidance = asked.guidance ? asked.guidance : all.guidance;
-        all.frozen = asked.frozen ? asked.frozen : all.frozen;
+        const RemoteRequests requests = observer->takeRequests();
+        all.forcesOff = all.forcesOff || requests.forcesOff;
+        all.guidance = requests.guidance ? requests.guidance : all.guidance;
+        all.frozen = requests.frozen ? requests.frozen : all.frozen;
     }
     return all;
 }

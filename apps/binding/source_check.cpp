@@ -40,16 +40,16 @@ SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     : CameraDecorator(std::move(source))
     , depth_(scene, CameraDecorator::info()) {
     const std::string why = CameraDecorator::whyNoColour();
-    bool asked = false;
+    bool anyColour = false;
     for (const FixtureClass& fixture : scene.fixtures) {
         const bool uses = fixture.usesColour() && !isSpare(fixture);
-        asked = asked || uses;
+        anyColour = anyColour || uses;
         if (!why.empty() && uses) {
             warn(fmt::format("fixture '{}' will have no point: it asks for colour, but {}", fixture.name,
                              why));
         }
     }
-    colourSeen_ = !asked || !why.empty();
+    colourSeen_ = !anyColour || !why.empty();
 }
 
 void SourceCheck::look(const Frame& frame) {

@@ -25,19 +25,19 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
     }
     ::unlink(name.c_str());
     try {
-        while (kept_.empty() || (!still && !stop.load())) {
+        while (stored_.empty() || (!still && !stop.load())) {
             const std::optional<Frame> frame = source->next();
             if (!frame) {
                 break;
             }
             store(*frame);
-            progress(kept_.size());
+            progress(stored_.size());
         }
     } catch (...) {
         ::close(descriptor_);
         throw;
     }
-    count_ = kept_.empty() ? 0 : still.value_or(kept_.size());
+    count_ = stored_.empty() ? 0 : still.value_or(stored_.size());
     skipped_ = source->skipped();
     warnings_ = source->warnings();
     slots_ = std::make_unique<FrameSlots>(info_.slotPixels(), info_.hasColour, kFramesInFlight + 1);
@@ -55,10 +55,10 @@ void SpooledCamera::store(const Frame& frame) {
     const std::span<const std::byte> colours = frame->colourBytes();
     writeAll(frame->depth.data(), frame->depth.size_bytes());
     writeAll(colours.data(), colours.size());
-    Kept& kept = kept_.emplace_back(Kept{*frame, colours.size()});
-    kept.content.depth = {};
-    kept.content.setColourBytes({});
-    kept.content.depthMemory = kept.content.colourMemory = nullptr;
+    StoredFrame& stored = stored_.emplace_back(StoredFrame{*frame, colours.size()});
+    stored.content.depth = {};
+    stored.content.setColourBytes({});
+    stored.content.depthMemory = stored.content.colourMemory = nullptr;
 }
 
 void SpooledCamera::writeAll(const void* bytes, size_t count) {
@@ -94,9 +94,9 @@ std::optional<Frame> SpooledCamera::next() {
     if (slot == nullptr) {
         throw Error("camera: too many frames in flight");
     }
-    const bool still = kept_.size() < count_;
-    const Kept& kept = kept_[still ? 0 : next_];
-    Frame::Content content = kept.content;
+    const bool still = stored_.size() < count_;
+    const StoredFrame& stored = stored_[still ? 0 : next_];
+    Frame::Content content = stored.content;
     if (still) {
         read_ = 0;
         content.index += static_cast<uint32_t>(next_);
@@ -104,7 +104,7 @@ std::optional<Frame> SpooledCamera::next() {
     }
     ++next_;
     content.depth = slot->depth().first(info_.depth.pixels());
-    const std::span<std::byte> colours = slot->colourBytes().first(kept.colourBytes);
+    const std::span<std::byte> colours = slot->colourBytes().first(stored.colourBytes);
     content.setColourBytes(colours);
     Frame frame = slot->lend(content);
     readAll(slot->depth().data(), content.depth.size_bytes());

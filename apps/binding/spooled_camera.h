@@ -44,11 +44,11 @@ private:
     uint32_t skipped_ = 0;
     std::vector<std::string> warnings_; // of the source
     int descriptor_ = -1;
-    struct Kept {
+    struct StoredFrame {
         Frame::Content content; // without its pixels
         size_t colourBytes = 0;
     };
-    std::vector<Kept> kept_;
+    std::vector<StoredFrame> stored_;
     size_t count_ = 0, next_ = 0;    // frames that it delivers; has delivered
     int64_t written_ = 0, read_ = 0; // [bytes]
     std::unique_ptr<FrameSlots> slots_;
