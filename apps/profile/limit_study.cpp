@@ -78,13 +78,13 @@ struct LimitCase {
 // passes that such a scene lacks: colour from a second camera, and a tree for queries on the device. Colours
 // are YUYV, as from USB cameras.
 std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
-    Scene asked = studyScene(settings);
-    asked.contact.where = Scene::Contact::Where::Gpu;
+    Scene onDevice = studyScene(settings);
+    onDevice.contact.where = Scene::Contact::Where::Gpu;
     std::vector<LimitCase> cases{
         {"10 % forbidden", studyScene(settings), inYuyv(wallFrame(w, h, 0.1, WallNoise::Sensor))},
         {"100 % forbidden", studyScene(settings), inYuyv(wallFrame(w, h, 1.0, WallNoise::Sensor))},
         {"100 % forbidden, noise-free", studyScene(settings), inYuyv(wallFrame(w, h, 1.0))},
-        {"two cameras, query on the device", asked, inYuyv(twoCameraFrames("tank", w, h, 1))}};
+        {"two cameras, query on the device", onDevice, inYuyv(twoCameraFrames("tank", w, h, 1))}};
     for (const auto& [name, share] :
          {std::pair("10 % forbidden, 1280x720", 0.1), {"100 % forbidden, 1280x720", 1.0}}) {
         if (!settings.quick) {

@@ -16,10 +16,10 @@ void traceTicks(ContactCycle& contact, const FrameBench& bench, Proxy& proxy, co
                 CadenceTrace& trace, int frame) {
     ContactSet set;
     for (int k = 0; k < kTicks; ++k) {
-        const TraceTime asked = std::chrono::steady_clock::now();
+        const TraceTime begin = std::chrono::steady_clock::now();
         contact.query(bench.set(), proxy.pose(), set);
         const TraceTime answered = std::chrono::steady_clock::now();
-        trace.query(asked, answered, set.size());
+        trace.query(begin, answered, set.size());
         const double phase = 0.02 * (frame * kTicks + k);
         Pose hand = touching;
         hand.position += dvec3(0.02 * std::sin(phase), 0.02 * std::cos(phase), 0.003);

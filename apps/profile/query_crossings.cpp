@@ -179,17 +179,17 @@ std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>&
     Scene scene = everyPointScene();
     scene.contact.where = Scene::Contact::Where::Auto;
     const CameraInfo camera = wallFrame(64, 48, 1.0).camera;
-    std::vector<double> asked;
+    std::vector<double> deviceLeaves;
     for (const uint32_t leaves : toolLeaves) {
         if (makePlan(scene, camera, leaves, device).query == Plan::Query::Gpu) {
-            asked.push_back(leaves);
+            deviceLeaves.push_back(leaves);
         }
     }
     const std::string who =
-        asked.empty() ? "the CPU with every tool measured"
-        : asked.size() == toolLeaves.size()
+        deviceLeaves.empty() ? "the CPU with every tool measured"
+        : deviceLeaves.size() == toolLeaves.size()
             ? "the device with every tool measured"
-            : "the device with tools of " + listOf(asked) + " leaves, the CPU with the others";
+            : "the device with tools of " + listOf(deviceLeaves) + " leaves, the CPU with the others";
     const std::string why = device.kind == DeviceKind::Cpu ? "this device is a CPU, which it never asks"
                             : device.gpuQueryLeaves == kNeverOnGpu
                                 ? "no tool is known for which the device is faster in every set measured"

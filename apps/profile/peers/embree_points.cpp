@@ -28,8 +28,9 @@ void boundsOf(const RTCBoundsFunctionArguments* args) {
 }
 
 bool visit(RTCPointQueryFunctionArguments* args) {
-    const auto& asked = *static_cast<const EmbreeQuery*>(args->userPtr);
-    asked.set->test(*asked.spheres, args->primID, asked.x, asked.y, asked.z, asked.limit, *asked.found);
+    const auto& request = *static_cast<const EmbreeQuery*>(args->userPtr);
+    request.set->test(*request.spheres, args->primID, request.x, request.y, request.z, request.limit,
+                      *request.found);
     return false; // the query radius does not shrink
 }
 
@@ -78,9 +79,9 @@ public:
         rtcInitPointQueryContext(&context);
         for (size_t l = 0; l < leaves.x.size(); ++l) {
             const float limit = reach + leaves.radius[l];
-            EmbreeQuery asked{spheres_, &found_, &found, leaves.x[l], leaves.y[l], leaves.z[l], limit};
-            RTCPointQuery query{asked.x, asked.y, asked.z, 0.0f, (limit + radius_) * 1.00001f};
-            rtcPointQuery(scene_, &query, &context, nullptr, &asked);
+            EmbreeQuery request{spheres_, &found_, &found, leaves.x[l], leaves.y[l], leaves.z[l], limit};
+            RTCPointQuery query{request.x, request.y, request.z, 0.0f, (limit + radius_) * 1.00001f};
+            rtcPointQuery(scene_, &query, &context, nullptr, &request);
         }
     }
 

@@ -21,10 +21,10 @@ struct FclQuery {
 };
 
 bool visit(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-    const auto& asked = *static_cast<const FclQuery*>(data);
-    const fcl::CollisionObjectd* sphere = a == asked.leaf ? b : a;
+    const auto& query = *static_cast<const FclQuery*>(data);
+    const fcl::CollisionObjectd* sphere = a == query.leaf ? b : a;
     const auto i = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(sphere->getUserData()));
-    asked.set->test(*asked.spheres, i, asked.x, asked.y, asked.z, asked.limit, *asked.found);
+    query.set->test(*query.spheres, i, query.x, query.y, query.z, query.limit, *query.found);
     return false; // continue
 }
 
@@ -60,8 +60,8 @@ public:
             fcl::Transform3d pose = fcl::Transform3d::Identity();
             pose.translation() = fcl::Vector3d(leaves.x[l], leaves.y[l], leaves.z[l]);
             fcl::CollisionObjectd leaf(std::make_shared<fcl::Sphered>(limit * 1.00001), pose);
-            FclQuery asked{spheres_, &found_, &found, &leaf, leaves.x[l], leaves.y[l], leaves.z[l], limit};
-            manager_->collide(&leaf, &asked, visit);
+            FclQuery query{spheres_, &found_, &found, &leaf, leaves.x[l], leaves.y[l], leaves.z[l], limit};
+            manager_->collide(&leaf, &query, visit);
         }
     }
 
