@@ -102,8 +102,8 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
     out.commit();
 }
 
-bool soakHolds(const LatencyPart& part, double asked) {
-    const bool whole = part.seconds >= kWholeShare * asked && part.frames > 0 && part.tick.count() > 0 &&
+bool soakHolds(const LatencyPart& part, double required) {
+    const bool whole = part.seconds >= kWholeShare * required && part.frames > 0 && part.tick.count() > 0 &&
                        part.memory.size() >= kMinLooks;
     return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMaxGrowth;
 }

@@ -19,6 +19,6 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
                   const std::string& device, bool endedBySignal);
 // True when the part ran for the requested time [s], processed frames, lost no frame and no record, and
 // memory was measured and did not grow.
-bool soakHolds(const LatencyPart& part, double asked);
+bool soakHolds(const LatencyPart& part, double required);
 
 } // namespace fathom

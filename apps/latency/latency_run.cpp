@@ -36,10 +36,10 @@ private:
 
 class HistogramSink final : public RunSink {
 public:
-    HistogramSink(LatencyPart& part, double seconds, const std::atomic<bool>& asked)
+    HistogramSink(LatencyPart& part, double seconds, const std::atomic<bool>& stopRequested)
         : part_(part)
         , seconds_(seconds)
-        , asked_(asked) {}
+        , stopRequested_(stopRequested) {}
 
     void frame(const PublishedFrame&, const HostFixtures&) override { ++part_.frames; }
     void query(const QueryNote&) override {}
@@ -54,7 +54,7 @@ public:
         if (row.record.t >= due) {
             part_.memory.push_back(residentMemory());
         }
-        if (row.record.t >= seconds_ || asked_.load()) {
+        if (row.record.t >= seconds_ || stopRequested_.load()) {
             stop.store(true);
         }
     }
@@ -74,7 +74,7 @@ private:
     JointVector before_{};
     bool first_ = true;
     double seconds_;
-    const std::atomic<bool>& asked_;
+    const std::atomic<bool>& stopRequested_;
 };
 
 SessionOptions sessionOptions(const LatencyOptions& options) {

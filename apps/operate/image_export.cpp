@@ -46,10 +46,10 @@ void ImageExport::end(Console& console, const std::string& why) {
 
 void ImageExport::step(Console& console, double period) {
     TimeLine& line = console.timeLine;
-    const bool asked = std::exchange(console.requests.exportImages, false);
-    if (!running_ && asked) {
+    const bool pressed = std::exchange(console.requests.exportImages, false);
+    if (!running_ && pressed) {
         start(console);
-    } else if (running_ && (asked || std::exchange(console.requests.stopExport, false))) {
+    } else if (running_ && (pressed || std::exchange(console.requests.stopExport, false))) {
         end(console, "stopped");
     } else if (running_ && next_ >= line.frames) {
         end(console, "");

@@ -81,14 +81,14 @@ std::vector<std::string> recordingsIn(const fs::path& in) {
 
 void stepOpenCard(Console& console, const fs::path& in, bool mayGoLive) {
     OpenCard& card = console.openCard;
-    const bool asked = std::exchange(console.requests.openCard, false);
+    const bool pressed = std::exchange(console.requests.openCard, false);
     if (!card.on) {
-        if (asked && console.closing.stage == ClosingStage::No) {
+        if (pressed && console.closing.stage == ClosingStage::No) {
             ask(console, in, mayGoLive);
         }
         return;
     }
-    card.chosen = asked ? (card.chosen + 1) % card.choices.size() : card.chosen;
+    card.chosen = pressed ? (card.chosen + 1) % card.choices.size() : card.chosen;
     if (keyPressed(GLFW_KEY_ESCAPE) || console.closing.stage != ClosingStage::No) {
         card.on = false;
     } else if (keyPressed(GLFW_KEY_ENTER) || std::exchange(card.clicked, false)) {

@@ -185,13 +185,13 @@ void OperatorRun::offWhenMinimised() {
 void OperatorRun::obeyObservers() {
     Console& console = display_.console;
     Console::Switches& switches = console.switches;
-    const RemoteRequests asked = sinks_.observers.takeRequests();
-    switches.guidance = asked.guidance.value_or(switches.guidance);
-    switches.frozen = asked.frozen.value_or(switches.frozen);
-    if (asked.forcesOff) {
+    const RemoteRequests requests = sinks_.observers.takeRequests();
+    switches.guidance = requests.guidance.value_or(switches.guidance);
+    switches.frozen = requests.frozen.value_or(switches.frozen);
+    if (requests.forcesOff) {
         switches.forcesOff();
         console.notify("forces off: another program asked for it");
-    } else if (asked.guidance || asked.frozen) {
+    } else if (requests.guidance || requests.frozen) {
         console.notify("another program switched guidance or freezing");
     }
 }

@@ -50,7 +50,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
 
 void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
     index = std::min(index, frameCount_ - 1);
-    if (any_ && index == asked_ && (whole_ || !whole)) {
+    if (any_ && index == requested_ && (whole_ || !whole)) {
         return;
     }
     const bool follows = any_ && whole_ && index > shown_ && index - shown_ <= lead_;
@@ -68,7 +68,7 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
         good = good || more;
         i = more ? std::max(i, frame.report.index) : index; // skips a bad frame
     }
-    asked_ = index;
+    requested_ = index;
     any_ = true;
     whole_ = whole || follows || first == 0;
     if (good) {

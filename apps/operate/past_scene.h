@@ -38,7 +38,7 @@ private:
 
     Session& session_;
     uint32_t frameCount_, lead_;
-    uint32_t asked_ = 0, shown_ = 0;
+    uint32_t requested_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
     const SceneEdit* edit_ = nullptr; // the active edit
     const Scene* newScene_ = nullptr;

@@ -93,7 +93,7 @@ bool Swapchain::fit(VkExtent2D wanted) {
     if (wanted.width == 0 || wanted.height == 0) {
         return false;
     }
-    if (!lost_ && wanted.width == asked_.width && wanted.height == asked_.height) {
+    if (!lost_ && wanted.width == requested_.width && wanted.height == requested_.height) {
         return true;
     }
     VkSurfaceCapabilitiesKHR can;
@@ -108,7 +108,7 @@ bool Swapchain::fit(VkExtent2D wanted) {
     if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0) {
         throw Error("the window's images cannot be copied to");
     }
-    asked_ = wanted;
+    requested_ = wanted;
     return create(can, size);
 }
 

@@ -43,7 +43,7 @@ private:
     VkSwapchainKHR handle_ = VK_NULL_HANDLE;
     VkSurfaceFormatKHR format_{};
     VkExtent2D size_{};
-    VkExtent2D asked_{}; // size that the newest swapchain was made for; the surface may limit it
+    VkExtent2D requested_{}; // size that the newest swapchain was made for; the surface may limit it
     std::vector<VkImage> images_;
     std::vector<VkSemaphore> filled_; // one per image
     uint32_t index_ = 0, remade_ = 0;

@@ -95,7 +95,7 @@ void LockstepReplay::processNext() {
         const bool now = cycle_ && !session_.scene.source.showsArm;
         session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }
-    if (session_.allFrozen() && !kept_.empty()) {
+    if (session_.allFrozen() && !retained_.empty()) {
         ready_ = session_.cycles.frames().unprocessedReport((*next_)->index);
     } else {
         ready_ = session_.cycles.frames().process(std::move(*next_));
@@ -106,7 +106,7 @@ void LockstepReplay::processNext() {
     next_.reset();
     const auto set = session_.cycles.frames().sets().newest();
     if (!ready_->unchanged) {
-        kept_.push_back(std::make_unique<Kept>(Kept{set->host, set->grid.get()}));
+        retained_.push_back(std::make_unique<RetainedSet>(RetainedSet{set->host, set->grid.get()}));
     }
 }
 
@@ -115,9 +115,9 @@ void LockstepReplay::takeDueFrames(double t) {
         if (!ready_) {
             processNext();
         }
-        recorder_.frame(*ready_, nextTime_, kept_.back()->fixtures, lastColour_);
+        recorder_.frame(*ready_, nextTime_, retained_.back()->fixtures, lastColour_);
         ready_.reset();
-        scene_.show(kept_.back()->fixtures);
+        scene_.show(retained_.back()->fixtures);
         scene_.captureTime = nextTime_;
         published_ = true;
         ++framesDone_;
@@ -152,22 +152,23 @@ void LockstepReplay::query() {
     contacts_.offerDue(session_.scene.contact.delay);
 }
 
-const LockstepReplay::Kept* LockstepReplay::keptSet(uint64_t generation) const {
-    const auto found = std::find_if(kept_.begin(), kept_.end(),
+const LockstepReplay::RetainedSet* LockstepReplay::retainedSet(uint64_t generation) const {
+    const auto found = std::find_if(retained_.begin(), retained_.end(),
                                     [&](const auto& k) { return k->fixtures.generation == generation; });
-    return found == kept_.end() ? nullptr : found->get();
+    return found == retained_.end() ? nullptr : found->get();
 }
 
 void LockstepReplay::dropOldSets() {
     const ContactSet* active = contacts_.active();
-    while (kept_.size() > 1 && active != nullptr && kept_.front()->fixtures.generation < active->generation) {
-        kept_.pop_front();
+    while (retained_.size() > 1 && active != nullptr &&
+           retained_.front()->fixtures.generation < active->generation) {
+        retained_.pop_front();
     }
 }
 
 void LockstepReplay::audit(const TickRow& row) {
     const ContactSet* active = contacts_.active();
-    const Kept* obeyed = active != nullptr ? keptSet(active->generation) : nullptr;
+    const RetainedSet* obeyed = active != nullptr ? retainedSet(active->generation) : nullptr;
     if (obeyed == nullptr || !session_.cycles.plan().spheres) {
         return;
     }
@@ -198,7 +199,7 @@ void LockstepReplay::tick(double t) {
     audit(row);
     recorder_.tick(row);
     if (contacts_.active() != nullptr && recorder_.wantsMoment()) {
-        if (const Kept* obeyed = keptSet(contacts_.active()->generation)) {
+        if (const RetainedSet* obeyed = retainedSet(contacts_.active()->generation)) {
             recorder_.moment(obeyed->fixtures, lastColour_);
         }
     }
@@ -243,7 +244,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     ending.maxPenetration = audit_.figures().maxPenetration();
     ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
     ending.colour = lastColour_;
-    ending.lastSet = &kept_.back()->fixtures;
+    ending.lastSet = &retained_.back()->fixtures;
     ending.linkPenetration = audit_.linkPenetration();
     return ending;
 }

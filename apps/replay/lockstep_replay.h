@@ -30,8 +30,8 @@ public:
     ReplayRecorder::Ending run();
 
 private:
-    // A published set. Kept for the audit as long as a contact set may refer to it.
-    struct Kept {
+    // A published set. Retained for the audit as long as a contact set may refer to it.
+    struct RetainedSet {
         HostFixtures fixtures;
         RegionGrid grid;
     };
@@ -48,7 +48,7 @@ private:
     void query();
     void tick(double t);
     void audit(const TickRow& row);
-    const Kept* keptSet(uint64_t generation) const;
+    const RetainedSet* retainedSet(uint64_t generation) const;
     void dropOldSets();
 
     const std::atomic<bool>& stop_;
@@ -68,7 +68,7 @@ private:
     bool published_ = false;           // a set is active
     std::vector<uint32_t> lastColour_;
 
-    std::deque<std::unique_ptr<Kept>> kept_;
+    std::deque<std::unique_ptr<RetainedSet>> retained_;
     DelayedContacts contacts_;
     SceneUpdate scene_; // from the newest frame that is due
     uint64_t ticks_ = 0, framesDone_ = 0;

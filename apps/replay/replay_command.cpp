@@ -108,8 +108,8 @@ ReplayOptions withFolder(ReplayOptions options) {
     return options;
 }
 
-int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
-    const ReplayOptions options = withFolder(asked);
+int runReplay(const ReplayOptions& requested, const GlobalOptions& global) {
+    const ReplayOptions options = withFolder(requested);
     for (const auto& [name, value] :
          {std::pair("--hand-device", &options.handDevice),
           std::pair("--view-door", &options.observers.viewEndpoint),

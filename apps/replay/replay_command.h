@@ -17,7 +17,7 @@ struct ReplayOptions : SessionOptions {
 
     bool hand = false; // closes the loop with a simulated hand
     // Whether it is closed: on request, or because the scene's own path has a hand that yields.
-    bool yields(const Scene& asked) const { return hand || (asked.hand.yields && operatorCsv.empty()); }
+    bool yields(const Scene& loaded) const { return hand || (loaded.hand.yields && operatorCsv.empty()); }
     ObserverOptions observers;
     double seconds = 0.0;   // [s] minimum length of a run with a live device
     double frameRate = 0.0; // [Hz] frame rate of a camera that is not live; 0 = 30

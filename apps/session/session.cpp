@@ -131,9 +131,9 @@ Scene withSpareClasses(Scene scene) {
     return scene;
 }
 
-Session::Session(const SessionOptions& asked, const GlobalOptions& global, const SessionWindow& window,
+Session::Session(const SessionOptions& requested, const GlobalOptions& global, const SessionWindow& window,
                  const std::atomic<bool>& stop)
-    : options(asked)
+    : options(requested)
     , scene(sceneFor(options))
     , edits(editsFor(scene, options))
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))

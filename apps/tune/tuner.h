@@ -36,7 +36,7 @@ struct Trial {
     std::string skipped;        // why points are missing; empty = none are
 };
 
-// What to measure, and whom to tell. Every function is called by the thread of run().
+// What to measure, and the callbacks. Every function is called by the thread of run().
 struct TuneOptions {
     Request request;
     double limit = 120.0; // [s] no point is begun that would probably end later; the first always is
