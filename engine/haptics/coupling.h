@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Virtual coupling: the springs between the proxy and the hand, their largest stable stiffness and their
-// stability margins.
-//
-// Sampling period T [s], the wrench leaves n ticks after the pose came in, the hand or device has physical
-// damping b. The rendered spring K with damping B (backward difference) is then passive when (Colgate and
-// Schenkel 1997)
+// stability margins. A spring K with damping B (backward difference) is passive (Colgate and Schenkel 1997)
+// when
 //     b > (T/2) sup over angles of Re{(1 - e^-jw) H} / (1 - cos w),  H = (K + B (1 - z^-1)/T) z^-n
 //       = K T (1 + 2n)/2 + |B|
-// The last line is exact for n = 0 with any B, and for any n with B = 0. Otherwise it is an upper bound of
-// the supremum, so the rule is on the safe side. A one-pole low-pass with gain a counts as exactly n = (1 -
-// a)/a (limits.h).
+// T [s]: sampling period; n: ticks from pose to wrench; b: physical damping of hand or device. The last line
+// is exact for n = 0 with any B and for any n with B = 0, otherwise an upper bound. A one-pole low-pass with
+// gain a counts as exactly n = (1 - a)/a (limits.h).
 #pragma once
 
 #include "engine/haptics/device_preset.h"

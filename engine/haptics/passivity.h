@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time-domain passivity. An observer measures the energy that the fixtures generate, that is, give to the
-// hand without having received it. A controller dissipates it by damping (Hannaford and Ryu 2002; stored
-// energy as the reference, Ryu et al. 2005).
+// Time-domain passivity (Hannaford and Ryu 2002; stored energy as the reference, Ryu et al. 2005). Measures
+// the energy that fixtures give to the hand beyond what they received, and dissipates it by damping.
 //
-// The wrench w is constant over a tick while the hand's end of the spring moves by dx, so the hand receives
-// exactly w . dx. With the energy S stored in the spring and the device's damping b, a tick generates
+// The wrench w is constant over a tick while the hand's end of the spring moves by dx. With the energy S
+// stored in the spring and the device's damping b, a tick generates
 //     G = w . dx + (S - S_before) - b |dx|^2 / T,         |dx|^2 / T <= integral of v^2 over the tick.
-// A static fixture generates nothing when K <= 2 b / T. The proxy may always stay where it was, so
-// S <= K/2 |p_before - x|^2 = S_before - w . dx + K/2 |dx|^2, hence G <= (K/2 - b/T) |dx|^2 <= 0. This holds
-// for any region and any hand path, and for rotations too (the Hessian of |log q|^2 / 2 is at most 1), so the
-// controller stays inactive. A surface that jumps by delta at penetration p adds K p delta + K delta^2 / 2 to
-// S. All of it is counted in the same tick, before the hand receives any.
-//
-// Forces that fade take energy from the springs that the hand has put in. The hand's account remembers it,
-// and pays for what the springs hold again when the forces return. Only energy beyond it counts as generated.
+// The proxy may always stay where it was, so S <= S_before - w . dx + K/2 |dx|^2 and G <= (K/2 - b/T) |dx|^2:
+// a static fixture generates nothing when K <= 2 b / T, for any region and hand path, and for rotations (the
+// Hessian of |log q|^2 / 2 is at most 1). A surface that jumps by delta at penetration p adds
+// K p delta + K delta^2 / 2 to S in the same tick. Fades: docs/architecture/tick.md#how-is-energy-controlled
 #pragma once
 
 #include "engine/haptics/coupling.h"

@@ -25,24 +25,11 @@ struct ReactionInput {
     double rendered = 1e9; // [N] by the device in the last tick, torque counted as torque / k
 };
 
-// One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
-// the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
-// growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
-// kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls that the hand causes are immediate. What new data takes of a reaction that keeps its direction, or
-// ends, falls over the time between frames. A direction that changes turns over that time.
-//
-// New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
-// (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
-// tick.
-//
-// A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
-// its rows meanwhile. So a fall that new data causes while it lags fades out. So does a fall by more than
-// SurfaceNoise::kBand or 2 N that turns the reaction by much: one of several surfaces went back beyond the
-// hand. If the reaction returns before, in its former direction, it rises from the force that the device
-// renders.
-//
-// Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
+// One thread; noexcept, no allocation. Falls that the hand causes are immediate. A rise beyond the hand's own
+// compression has another cause (a row, new data, the end of a lag) and is at most kMaxRiseRate. What new
+// data causes is spread over the time between frames, and a part of it is felt later (SurfaceNoise). Times
+// are measured ones, so that late ticks delay nothing; a rise counts ticks. All rules:
+// docs/architecture/tick.md#where-does-the-force-come-from
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.

@@ -17,20 +17,14 @@ struct SurfaceNoiseInput {
     bool dataPushes = false; // new data may be moving the tool
 };
 
-// One thread; noexcept, no allocation. A force that new data changes is withheld from the hand and released
-// slowly. At most this much is withheld: along the reaction kBand of the surface's motion, across it kBand,
-// or kTurnBand of the reaction if that is more; never more than half of the reaction, so that force ends
-// where contact ends.
+// One thread; noexcept, no allocation. Withholds a part of the force that new data changes and releases it
+// slowly: along the reaction at most kBand of the surface's motion, across it kBand or kTurnBand of the
+// reaction if that is more; never more than half of the reaction, so that force ends where contact ends.
 //
-// How slowly depends on whether the change stays. The mean over kWatch of the withheld force is near zero
-// while noise makes it change its sign, and near its size when a surface has moved. What stays is released
-// with the time constant kSettle. The rest is released with a time constant that grows as fast as time passes
-// while the hand rests on the surface, up to kMaxSlowTime: so the felt surface is the mean of all surfaces
-// since the contact began.
-//
-// A frame also shifts the tool sideways, onto other spheres. A hand that slides undoes that, and feels it:
-// so what is withheld across the reaction ends within some millimetres of travel. Otherwise such shifts
-// would add up to a sideways force that no surface gives.
+// A change that stays is released with kSettle: then the mean over kWatch of the withheld force is near its
+// size, while noise keeps it near zero. The rest is released with a time constant that grows while the hand
+// rests on the surface, up to kMaxSlowTime. What is withheld across the reaction also ends within some
+// millimetres of travel (docs/architecture/tick.md#where-does-the-force-come-from).
 class SurfaceNoise {
 public:
     static constexpr double kBand = 0.002;      // [m] of motion of the surface
