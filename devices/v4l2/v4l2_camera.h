@@ -17,18 +17,16 @@
 
 namespace fathom {
 
-// Depth in 16-bit rows without gaps is leased in place (no copy, and a GPU that imports host memory reads it
-// there) while the driver keeps two buffers; other depth is unpacked into the camera's own memory. Colour is
-// copied as it is sent, and motion JPEG decoded to its planes. Capture times are CLOCK_MONOTONIC [s]: arrival
-// of the first bytes for a UVC camera, which its driver calls start of exposure; the actual start of exposure
-// when a RealSense D4xx and the kernel report it (frame_metadata.h). Colour is paired by the driver's stamps.
-// Frame indices start at 0; the source number is index + 1.
+// Depth in 16-bit rows without gaps is leased in place (no copy, also for a GPU that imports host memory)
+// while the driver keeps two buffers; other depth is unpacked. Colour is copied as it is sent, motion JPEG is
+// decoded to its planes; the driver's stamps pair it. Capture times are CLOCK_MONOTONIC [s]: arrival of the
+// first bytes (UVC drivers call it start of exposure), or the actual start of exposure where a RealSense D4xx
+// and the kernel report it (frame_metadata.h). Frame indices start at 0; the source number is index + 1.
 //
-// next() returns the newest pair, and none from before a pause in which the driver ran out of buffers (with
-// everyFrame: every pair, in order). A damaged, short or unpaired frame is skipped and counted, and each
-// cause is logged once. A stream without frames for `silence` is restarted; after twice that, or 2.5 times
-// that with unusable frames only, the camera counts as lost. When it is lost (unplugged), next() throws
-// DeviceLost and searches the same camera again on each later call.
+// next() returns the newest pair (with everyFrame: every pair, in order), none from before a pause in which
+// the driver ran out of buffers. Unusable frames are skipped and counted, each cause is logged once. A stream
+// without frames for `silence` is restarted. When unplugged, after twice that, or after 2.5 times that with
+// unusable frames only, next() throws DeviceLost; each later call searches the same camera again.
 class V4l2Camera final : public Camera {
 public:
     // Throws BadInput for an unknown device, an unavailable format or size (lists the available ones), or
