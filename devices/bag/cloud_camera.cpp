@@ -111,7 +111,7 @@ void CloudCamera::checkOptions() const {
     }
 }
 
-// The requested topic; else the first organised one of the best: a camera's own, with colour, named as points.
+// The requested topic; else the first organised one of the best: a camera's own, with colour, named points.
 void CloudCamera::chooseTopic() {
     using Score = std::tuple<bool, bool, bool>;
     std::string fault, others;

@@ -107,8 +107,8 @@ struct Calibration {
     std::string unusable; // why a file of the name of one is none; empty = there is none
 };
 
-// optional: skips a file that cannot be read. 12-Scenes has its calibration next to the folder of images, where
-// other data sets may have any text.
+// optional: skips a file that cannot be read. 12-Scenes has its calibration next to the folder of images,
+// where other data sets may have any text.
 bool takeCalibration(Calibration& found, const fs::path& file, bool optional) {
     std::error_code failed;
     if (optional ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {

@@ -43,8 +43,8 @@ struct PointDigits {
 // As without names if one has no number.
 PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names);
 
-// numbersIn() of each name. A point is no decimal point where these names count behind it; nor where `others`,
-// the names of images of another kind, count and these names have one number in front of the point.
+// numbersIn() of each name. A point is no decimal point where these names count behind it; nor where
+// `others`, the names of images of another kind, do and these names have one number in front of the point.
 std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names,
                                                     const std::vector<std::string>& others = {});
 
