@@ -113,7 +113,7 @@ void HaplyBridge::giveUpLate(Clock::time_point now) {
 void HaplyBridge::exchange() {
     endpoint_->poll();
     const auto now = Clock::now();
-    if (now - receivedAt_ > kDeaf) {
+    if (now - receivedAt_ > kLostAfter) {
         throw DeviceLost(place_ + ": silent");
     }
     giveUpLate(now);

@@ -41,8 +41,8 @@ public:
 
     static constexpr double kForceLimit = 5.0; // [N] of the preset "inverse3"
     static constexpr auto kReplyTime = std::chrono::milliseconds(20);
-    static constexpr auto kDeaf = std::chrono::milliseconds(500);   // without an answer, then it is lost
-    static constexpr auto kPeriod = std::chrono::microseconds(500); // from request to request, at least
+    static constexpr auto kLostAfter = std::chrono::milliseconds(500); // without an answer, then it is lost
+    static constexpr auto kPeriod = std::chrono::microseconds(500);    // from request to request, at least
 
 private:
     void open() override;

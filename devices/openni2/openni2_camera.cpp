@@ -20,7 +20,7 @@ namespace fathom {
 namespace {
 
 constexpr int kSilenceMs = 2000;
-constexpr auto kPlayerRests = std::chrono::milliseconds(30);
+constexpr auto kPlayerPause = std::chrono::milliseconds(30);
 
 bool isDepth(openni::PixelFormat format) {
     return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
@@ -86,7 +86,7 @@ OpenNi2Camera::~OpenNi2Camera() {
     }
     if (file_) { // its player iterates the stream list without a lock, every 10 ms while all streams are
                  // stopped
-        std::this_thread::sleep_for(kPlayerRests);
+        std::this_thread::sleep_for(kPlayerPause);
     }
     for (Stream* s : {&depth_, &colour_}) {
         s->stream.destroy();

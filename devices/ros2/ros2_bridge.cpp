@@ -17,9 +17,9 @@ namespace {
 
 constexpr auto kQuiet = std::chrono::seconds(5); // after a loss was logged
 
-class GuardOfTopics final : public Ros2Bridge {
+class TopicBridge final : public Ros2Bridge {
 public:
-    GuardOfTopics(const Ros2HandRequest& request, const SocketServer::Options& options)
+    TopicBridge(const Ros2HandRequest& request, const SocketServer::Options& options)
         : request_(request)
         , graph_(Ros2Graph::join(request.place))
         , inbox_(graph_)
@@ -32,7 +32,7 @@ public:
             joy_.topic = inbox_.subscribe(request.joy, "sensor_msgs/msg/Joy", Ros2Qos::Sensor);
         }
     }
-    ~GuardOfTopics() override { publish({}); }
+    ~TopicBridge() override { publish({}); }
 
     void run(const std::atomic<bool>& stop) override;
     std::string place() const override {
@@ -78,7 +78,7 @@ private:
     SocketServer endpoint_;
 };
 
-void GuardOfTopics::skip(const std::string& topic, const Error& fault) {
+void TopicBridge::skip(const std::string& topic, const Error& fault) {
     constexpr size_t kMaxFaults = 32;
     ++figures_.faults;
     const std::string text = topic + ": " + fault.what();
@@ -87,7 +87,7 @@ void GuardOfTopics::skip(const std::string& topic, const Error& fault) {
     }
 }
 
-void GuardOfTopics::takePoses() {
+void TopicBridge::takePoses() {
     for (const Ros2Message& taken : inbox_.take(poses_.topic)) {
         if (!poses_.publisher.accepts(taken)) {
             continue;
@@ -110,7 +110,7 @@ void GuardOfTopics::takePoses() {
     }
 }
 
-void GuardOfTopics::takeButtons() {
+void TopicBridge::takeButtons() {
     if (!joy_.topic) {
         return;
     }
@@ -127,7 +127,7 @@ void GuardOfTopics::takeButtons() {
     }
 }
 
-uint32_t GuardOfTopics::buttons() const {
+uint32_t TopicBridge::buttons() const {
     const bool fresh = joy_.down.size() > 0 && secondsSince(joy_.receivedAt) <= kJoySilence;
     const auto down = [&](uint32_t button) {
         return fresh && button < joy_.down.size() && joy_.down[button];
@@ -137,7 +137,7 @@ uint32_t GuardOfTopics::buttons() const {
            (down(request_.clutch) ? FATHOM_DOOR_CLUTCH : 0) | (open ? FATHOM_DOOR_DEAD_MAN_OPEN : 0);
 }
 
-void GuardOfTopics::watch() {
+void TopicBridge::watch() {
     if (poses_.there && secondsSince(poses_.receivedAt) > kSilence) {
         poses_.there = false;
         ++figures_.losses;
@@ -149,14 +149,14 @@ void GuardOfTopics::watch() {
     }
 }
 
-void GuardOfTopics::publish(const Wrench& wrench) noexcept {
+void TopicBridge::publish(const Wrench& wrench) noexcept {
     try {
         wrench_.write(ros2::wrench({utcNanoseconds(), frame_}, wrench.force, wrench.torque));
     } catch (const std::bad_alloc&) { // the node then stops the force
     }
 }
 
-void GuardOfTopics::run(const std::atomic<bool>& stop) {
+void TopicBridge::run(const std::atomic<bool>& stop) {
     auto due = Clock::now();
     while (!stop.load()) {
         inbox_.wait(std::max(0.0, -secondsSince(due)));
@@ -181,7 +181,7 @@ void GuardOfTopics::run(const std::atomic<bool>& stop) {
 std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request,
                                            const std::filesystem::path& endpoint, double forceLimit,
                                            double torqueLimit) {
-    return std::make_unique<GuardOfTopics>(
+    return std::make_unique<TopicBridge>(
         request,
         SocketServer::Options{endpoint, request.preset, "ROS 2 " + request.pose, forceLimit, torqueLimit});
 }

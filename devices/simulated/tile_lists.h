@@ -54,7 +54,7 @@ public:
 
 private:
     std::vector<std::vector<Entry>> tiles_; // row-major; kept between builds for their memory
-    std::vector<Sight> sights_;             // one a solid
+    std::vector<Sight> sights_;             // one per solid
     TangentGrid grid_;
 };
 

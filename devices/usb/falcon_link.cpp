@@ -64,7 +64,7 @@ bool FalconLink::exchange(const FalconCommand& command, std::chrono::microsecond
         ++figures_.late;
         awaiting_ = false;
     }
-    if (now - receivedAt_ > kDeaf) {
+    if (now - receivedAt_ > kLostAfter) {
         throw DeviceLost("falcon: no answer for half a second");
     }
     return false;

@@ -28,7 +28,7 @@ public:
 
     // Sends the command unless the previous one is unanswered, then waits at most `most`. True when a new
     // state arrived. An unanswered request expires after kReplyTime. Throws DeviceLost, also when the device
-    // accepts nothing for kDeaf.
+    // accepts nothing for kLostAfter.
     bool exchange(const FalconCommand& command, std::chrono::microseconds most);
 
     // Sends zero force and waits briefly for the answer. Never throws: the last call before closing.
@@ -38,7 +38,7 @@ public:
     FalconFigures figures() const noexcept;
 
     static constexpr auto kReplyTime = std::chrono::milliseconds(20);
-    static constexpr auto kDeaf = std::chrono::milliseconds(500);
+    static constexpr auto kLostAfter = std::chrono::milliseconds(500);
 
 private:
     bool answers();

@@ -76,7 +76,7 @@ TEST_CASE("Commands and answers of a Reach arm fit on a half-duplex line of 1152
         Rig rig({}, kind);
         rig.run(2.0, kind == ReachKind::Alpha5 ? kGo : kBravoGo);
         CAPTURE(rig.line.carried);
-        CHECK(static_cast<double>(rig.line.carried) / 2.0 < 0.85 * 11520.0); // bytes a second, ten bits each
+        CHECK(static_cast<double>(rig.line.carried) / 2.0 < 0.85 * 11520.0); // bytes/s, ten bits each
     }
 }
 
