@@ -16,7 +16,7 @@ constexpr double kPlay = 0.0005;       // [m]
 constexpr double kTurnGate = 0.05;     // [rad]
 constexpr double kTurnPlay = 0.005;    // [rad]
 constexpr double kLargestTurn = 1.0;   // [rad] from where a rotation's mean began
-constexpr uint32_t kConvincing = 15;   // [frames] with another plane or roll
+constexpr uint32_t kSwitchFrames = 15; // [frames] with another plane or roll
 
 dvec3 beyond(const dvec3& v, double limit) noexcept {
     const double length = glm::length(v);
@@ -54,7 +54,7 @@ GuidanceEstimates::Settled::Settled(const GuidancePose& first)
 void GuidanceEstimates::Settled::turn(const GuidancePose& pose) {
     const bool same = pose.planar == planar && pose.rollFree == rollFree;
     others = same ? 0 : others + 1;
-    if (!same && others < kConvincing) {
+    if (!same && others < kSwitchFrames) {
         return;
     }
     const dvec3 measured = rotationBetween(reference, pose.target.rotation);

@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kNothingToTouch = 1000.0; // [m] reach without regions: the tool may go anywhere
+constexpr double kReachWithoutRegions = 1000.0; // [m] the tool may go anywhere
 
 } // namespace
 
@@ -60,7 +60,7 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
     switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
     case Plan::Query::None:
         out.clear();
-        describeQuery(tool, baseTtool, kNothingToTouch, set.host, out);
+        describeQuery(tool, baseTtool, kReachWithoutRegions, set.host, out);
         out.pairBegin.assign(tool.leafCount() + 1, 0);
         out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
         return;

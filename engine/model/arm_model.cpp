@@ -5,8 +5,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kAnyPosture = 0.731; // [rad], [m]
-constexpr double kStays = 1e-6;       // [m / rad] slower points stay where they are
+constexpr double kAnyPosture = 0.731;       // [rad], [m]
+constexpr double kLeastDisplacement = 1e-6; // [m / rad] slower points stay where they are
 
 Pose movedBy(const dvec3& axis, bool slides, double q) {
     return slides ? Pose{q * axis, {1.0, 0.0, 0.0, 0.0}} : Pose{dvec3(0.0), rotationExp(q * axis)};
@@ -45,7 +45,7 @@ bool ArmModel::moves(size_t leaf) const noexcept {
     const dvec3 at = centre(frames, leaf);
     const auto displaces = [&](size_t k, const dvec3& motion) {
         const ArmJoint& joint = joints[joints[k].mimic ? joints[k].mimic->joint : k];
-        return joint.lower < joint.upper && glm::length(motion) > kStays;
+        return joint.lower < joint.upper && glm::length(motion) > kLeastDisplacement;
     };
     for (size_t k = 0; k < leaves[leaf].joint; ++k) {
         if (displaces(k, motionOf(frames, k, at))) {
@@ -55,7 +55,7 @@ bool ArmModel::moves(size_t leaf) const noexcept {
     for (uint32_t f = leaves[leaf].finger; f > 0; f = fingers[f - 1].carrier) {
         const dvec3 motion = motionOfFinger(frames, f - 1, at);
         const auto& mimic = fingers[f - 1].mimic;
-        if (mimic ? displaces(mimic->joint, motion) : glm::length(motion) > kStays) {
+        if (mimic ? displaces(mimic->joint, motion) : glm::length(motion) > kLeastDisplacement) {
             return true;
         }
     }

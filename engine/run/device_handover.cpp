@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-constexpr auto kLook = std::chrono::milliseconds(5); // poll interval of `stop`, which has no notification
+constexpr auto kPoll = std::chrono::milliseconds(5); // poll interval of `stop`, which has no notification
 
 } // namespace
 
@@ -27,7 +27,7 @@ void DeviceHandover::change(State from, State to) {
 DeviceHandover::State DeviceHandover::awaitOther(State than, const std::atomic<bool>& stop) {
     std::unique_lock lock(mutex_);
     while (state_ == than && !stop.load(std::memory_order_relaxed)) {
-        changed_.wait_for(lock, kLook);
+        changed_.wait_for(lock, kPoll);
     }
     return state_;
 }
