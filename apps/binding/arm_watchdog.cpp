@@ -64,7 +64,7 @@ ArmWatchdog::~ArmWatchdog() {
     }
 }
 
-void ArmWatchdog::hear() noexcept {
+void ArmWatchdog::receive() noexcept {
     char bytes[64];
     ssize_t got = 0;
     while ((got = ::recv(socket_, bytes, sizeof bytes, MSG_DONTWAIT)) > 0) {
@@ -76,10 +76,10 @@ void ArmWatchdog::hear() noexcept {
 
 bool ArmWatchdog::stands(double now) noexcept {
     if (!ended_) {
-        hear();
+        receive();
     }
-    const bool deaf = requestedAt_ >= 0.0 && now - requestedAt_ > kDeaf;
-    return ready_ && !ended_ && !deaf;
+    const bool silent = requestedAt_ >= 0.0 && now - requestedAt_ > kAnswerTimeout;
+    return ready_ && !ended_ && !silent;
 }
 
 void ArmWatchdog::alive(double now) noexcept {

@@ -28,16 +28,16 @@ public:
     ~ArmWatchdog();
 
     // True when it runs and would stop the arm. False until it is ready, after it was killed, and while it
-    // has not answered alive() for kDeaf.
+    // has not answered alive() for kAnswerTimeout.
     bool stands(double now) noexcept;
     bool ended() const noexcept { return ended_; }
     // now [s]: any monotonic clock. Before each exchange with the arm.
     void alive(double now) noexcept;
 
-    static constexpr double kDeaf = 0.5; // [s]
+    static constexpr double kAnswerTimeout = 0.5; // [s]
 
 private:
-    void hear() noexcept;
+    void receive() noexcept;
 
     int socket_ = -1;
     pid_t process_ = -1;

@@ -93,9 +93,9 @@ private:
 
     // Regions are sent when they change, at most so often, and again for whoever subscribes later [s].
     static constexpr double kRegionPause = 0.1, kRegionRepeat = 1.0;
-    static constexpr uint64_t kQueue = 256;                          // steps
-    static constexpr auto kLook = std::chrono::milliseconds(50);     // for subscribers of regions
-    static constexpr auto kSilence = std::chrono::milliseconds(100); // of the run: a robot stands still
+    static constexpr uint64_t kQueue = 256;                            // steps
+    static constexpr auto kPollPeriod = std::chrono::milliseconds(50); // for subscribers of regions
+    static constexpr auto kSilence = std::chrono::milliseconds(100);   // of the run: a robot stands still
 
     Ros2Topics topics_;
     // Writer thread.
@@ -163,7 +163,7 @@ void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
 
 void Ros2Output::run() {
     try {
-        while (bell_.wait(kLook)) {
+        while (bell_.wait(kPollPeriod)) {
             publish();
         }
     } catch (const std::exception& e) { // out of memory

@@ -19,7 +19,7 @@ using Driver = SceneArm::Driver;
 using SerialClock = std::chrono::steady_clock;
 
 constexpr auto kWatchdogStart = std::chrono::seconds(5);
-constexpr auto kWatchdogLook = std::chrono::milliseconds(2);
+constexpr auto kWatchdogPoll = std::chrono::milliseconds(2);
 constexpr double kWatchdogRetry = 0.5; // [s]
 
 std::unique_ptr<ArmDevice> deviceFor(const Driver& driver, SerialPort& port) {
@@ -59,7 +59,7 @@ void SerialArm::awaitWatchdog(const std::atomic<bool>& stop) {
         if (stop.load() || watchdog_->ended() || SerialClock::now() > until) {
             throw Error(description_ + ": its watchdog process does not start");
         }
-        std::this_thread::sleep_for(kWatchdogLook);
+        std::this_thread::sleep_for(kWatchdogPoll);
     }
 }
 

@@ -22,7 +22,7 @@ namespace fathom {
 namespace {
 
 constexpr auto kPatience = std::chrono::seconds(20); // a driver of many devices takes seconds
-constexpr auto kFarewell = std::chrono::seconds(1);
+constexpr auto kExitTimeout = std::chrono::seconds(1);
 constexpr auto kStep = std::chrono::milliseconds(5);
 
 } // namespace
@@ -67,7 +67,7 @@ void ClockKeeper::end() noexcept {
     ::close(std::exchange(answer_, -1));
     held_ = false;
     const pid_t process = std::exchange(process_, -1);
-    const auto until = std::chrono::steady_clock::now() + kFarewell;
+    const auto until = std::chrono::steady_clock::now() + kExitTimeout;
     while (process > 0 && ::waitpid(process, nullptr, WNOHANG) == 0) {
         if (std::chrono::steady_clock::now() > until) {
             ::kill(process, SIGKILL);

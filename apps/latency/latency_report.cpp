@@ -12,7 +12,7 @@ namespace fathom {
 namespace {
 
 constexpr double kWholeShare = 0.98; // of the requested time, because the clock starts after the first frame
-constexpr size_t kMinLooks = 20;     // memory samples: two in each tenth of the run
+constexpr size_t kMinSamples = 20;   // memory samples: two in each tenth of the run
 constexpr std::array<size_t, 14> kSteps{0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
 void printTimes(std::ostream& out, const char* name, const Histogram& h) {
@@ -104,7 +104,7 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
 
 bool soakHolds(const LatencyPart& part, double required) {
     const bool whole = part.seconds >= kWholeShare * required && part.frames > 0 && part.tick.count() > 0 &&
-                       part.memory.size() >= kMinLooks;
+                       part.memory.size() >= kMinSamples;
     return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMaxGrowth;
 }
 

@@ -195,9 +195,9 @@ void Window::beginFrame(double patience) {
         const double until = monotonicSeconds() + patience;
         glfwPollEvents();
         while (monotonicSeconds() < until) { // handles events at once and keeps the frame rate
-            constexpr double kLook = 0.002;  // [s] polls, because the swapchain uses the same X connection
+            constexpr double kPoll = 0.002;  // [s] polls, because the swapchain uses the same X connection
             std::this_thread::sleep_for(
-                std::chrono::duration<double>(std::min(kLook, until - monotonicSeconds())));
+                std::chrono::duration<double>(std::min(kPoll, until - monotonicSeconds())));
             glfwPollEvents();
         }
         if (std::exchange(moved_, false)) {

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
-constexpr uint32_t kCallsAClockReading = 32;
+constexpr uint32_t kCallsPerClockReading = 32;
 
 // A terminal that can erase a line.
 bool isTerminal(std::FILE* out) {
@@ -67,8 +67,8 @@ Progress::Progress(std::FILE* out, bool terminal)
     , terminal_(terminal) {}
 
 void Progress::update(const ProgressCounts& counts) noexcept {
-    // Reads the clock only every kCallsAClockReading calls, because ticks are microseconds apart.
-    if (!terminal_ || (shown_ && !counts.framesOnly && ++calls_ % kCallsAClockReading != 0)) {
+    // Reads the clock only every kCallsPerClockReading calls, because ticks are microseconds apart.
+    if (!terminal_ || (shown_ && !counts.framesOnly && ++calls_ % kCallsPerClockReading != 0)) {
         return;
     }
     const auto now = Clock::now();

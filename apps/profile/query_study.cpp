@@ -11,7 +11,7 @@ namespace fathom::profile {
 
 namespace {
 
-struct WayLine {
+struct MethodLine {
     const char* method;
     const char* name;
     double dash;
@@ -19,11 +19,11 @@ struct WayLine {
 
 // One line per method and set: time over the tool's leaves.
 PlotPanel timePanel(const Study& study, const std::vector<std::string>& sources,
-                    const std::vector<WayLine>& ways, const RowValue& time) {
+                    const std::vector<MethodLine>& methods, const RowValue& time) {
     PlotPanel panel;
     panel.xLabel = "tool leaves";
     for (const std::string& source : sources) {
-        for (const WayLine& line : ways) {
+        for (const MethodLine& line : methods) {
             PlotSeries series{std::string(line.name) + ", " + source, {}, true, line.dash, source};
             for (const StudyRow& row : study.rows) {
                 if (row.source == source && isMethod(row, line.method) && time(row) > 0.0) {

@@ -14,7 +14,7 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kReferenceHolds = 1e-6;
-constexpr double kWorthALook = 1e-9; // smaller distances and residuals need no closer check
+constexpr double kCheckAbove = 1e-9; // smaller distances and residuals need no closer check
 constexpr double kEpsilon = 2.2204460492503131e-16;
 
 // The same set with every coefficient of its rows changed by one rounding error, up or down.
@@ -111,7 +111,7 @@ SolveStatus SolverTrial::judge(const RowSet& set, SolverTally& tally) {
 // residual of 1e-12 cannot distinguish from infeasible; or rounding the rows changes the reference's answer.
 bool SolverTrial::undecidable(const RowSet& set, SolveStatus status, const NearestPoint& truth) const {
     if (status == SolveStatus::Optimal) {
-        return checkKkt(set.problem(), x_, solver_.multipliers()).worst() < kWorthALook;
+        return checkKkt(set.problem(), x_, solver_.multipliers()).worst() < kCheckAbove;
     }
     bool ticks = false;
     for (uint64_t seed = 1; seed <= 4; ++seed) {
@@ -142,7 +142,7 @@ SolverTally SolverTrial::measure(const RowSet& set, const std::optional<NearestP
     if (truth) {
         const double scale = target + metricLength(set, truth->x);
         one.distance = distanceBetween(set, x_, truth->x) / scale;
-        if (one.distance > kWorthALook) {
+        if (one.distance > kCheckAbove) {
             one.ofRounding = one.distance / std::max(kEpsilon, roundingShift(set, *truth) / scale);
         }
     }
