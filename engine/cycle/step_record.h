@@ -65,6 +65,16 @@ struct StepInput {
     Deadline deadline;           // realtime; none in lockstep
 };
 
+// The input of one step at `now` [s] for a sample of the hand: no scene, no contact sets.
+inline StepInput stepInput(const HandSample& hand, double now) noexcept {
+    StepInput input;
+    input.time = now;
+    input.deviceThandle = hand.deviceThandle;
+    input.buttons = hand.buttons;
+    input.present = hand.present;
+    return input;
+}
+
 // A value that no step has measured yet.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 

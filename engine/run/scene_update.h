@@ -32,13 +32,9 @@ struct SceneUpdate {
     }
 };
 
-// The input of one step at `now` [s], without contact sets (ActiveContacts adds them). Points into `scene`.
+// The input of one step in a scene, without contact sets (ActiveContacts adds them). Points into `scene`.
 inline StepInput stepInput(const SceneUpdate& scene, const HandSample& hand, double now) noexcept {
-    StepInput input;
-    input.time = now;
-    input.deviceThandle = hand.deviceThandle;
-    input.buttons = hand.buttons;
-    input.present = hand.present;
+    StepInput input = stepInput(hand, now);
     input.frame = scene.frame;
     input.generation = scene.generation;
     input.captureTime = scene.captureTime;

@@ -220,9 +220,7 @@ TEST_CASE("A set whose trust region the tool has left is rejected and the active
     REQUIRE(rig.step().adopted);
     ContactSet far;
     rig.cull.query(rig.tool, at(0.05, 0, 0.05), 0.01, wallSet(2), rig.grid, far);
-    StepInput input;
-    input.time = rig.time;
-    input.deviceThandle = rig.hand;
+    StepInput input = stepInput({rig.hand}, rig.time);
     input.active = rig.contacts.active();
     input.offered = &far;
     const auto record = rig.cycle->step(input);
@@ -251,9 +249,7 @@ TEST_CASE("The same run twice gives the same bits, and steps do not allocate") {
             CHECK(record.wrench.force == before.wrench.force);
             CHECK(record.wrench.torque == before.wrench.torque);
         }
-        StepInput input;
-        input.time = rig.time;
-        input.deviceThandle = rig.hand;
+        StepInput input = stepInput({rig.hand}, rig.time);
         input.active = rig.contacts.active();
         input.guidance = rig.guidance;
         const uint64_t before = allocationCount();

@@ -16,10 +16,7 @@ struct Samples {
     double time = 0.0;
 
     StepInput next(const Pose& pose, bool present = true) {
-        StepInput input;
-        input.time = time += 0.001;
-        input.deviceThandle = pose;
-        input.present = present;
+        StepInput input = stepInput({pose, 0, present}, time += 0.001);
         check.judge(input);
         return input;
     }
