@@ -50,9 +50,8 @@ public:
         query_.take(asking);
         next.query = ticks_;
         contacts_.offer([&next] { return &next; });
-        StepInput input;
-        input.time = input.captureTime = now;
-        input.deviceThandle = hand;
+        StepInput input = stepInput({hand}, now);
+        input.captureTime = now;
         input.frame = shown_.frame;
         input.generation = shown_.generation;
         const Clocks stepping;

@@ -160,11 +160,9 @@ std::vector<double> pulledWay(bool paper, double speed, double mass, int ticks) 
     target.target.position = {0.0, 0.0, 0.3};
     std::vector<double> way;
     for (int k = 0; k < ticks; ++k) {
-        StepInput input;
-        input.time = 0.001 * k;
-        input.deviceThandle = hand.read(input.time).deviceThandle;
+        const double t = 0.001 * k;
+        StepInput input = stepInput({hand.read(t).deviceThandle, kGuidanceButton}, t);
         input.guidance = {&target, 1};
-        input.buttons = kGuidanceButton;
         const StepRecord record = cycle.step(input);
         hand.write(record.deviceWrench, 0.001);
         way.push_back(record.tool.position.z);

@@ -92,10 +92,8 @@ void runFlicker(size_t classes, int ticks, Rng& rng, FlickerFigures& figures) {
         if (i % 33 == 0) { // a frame
             flickerOnce(poses, rng);
         }
-        StepInput input;
-        input.time = i * 0.001;
+        StepInput input = stepInput({Pose{}, i > 100 ? kGuidanceButton : 0}, i * 0.001);
         input.guidance = poses;
-        input.buttons = i > 100 ? kGuidanceButton : 0;
         const StepRecord record = cycle.step(input);
         figures.largest = std::max(figures.largest, glm::distance(record.wrench.force, before));
         before = record.wrench.force;

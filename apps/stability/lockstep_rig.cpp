@@ -75,9 +75,7 @@ StepRecord LockstepRig::step(const Pose& hand) {
     contacts_.offer([this] { return arrived(); });
     const bool offered = contacts_.offered() != nullptr;
     const Pose before = cycle_->pose();
-    StepInput input;
-    input.time = static_cast<double>(now_) * options_.period;
-    input.deviceThandle = hand;
+    StepInput input = stepInput({hand}, static_cast<double>(now_) * options_.period);
     if (!published_.empty()) {
         input.frame = published_.back()->set.frame;
         input.generation = generation_;

@@ -83,11 +83,7 @@ void LoopRig::account(const Wrench& felt, const Pose& before, double period) {
 
 const StepRecord& LoopRig::tick() {
     const double period = measured_ > 0.0 ? measured_ : options_.period;
-    const HandSample sample = hand_.read(time_);
-    StepInput input;
-    input.time = time_;
-    input.deviceThandle = sample.deviceThandle;
-    input.buttons = sample.buttons;
+    StepInput input = stepInput(hand_.read(time_), time_);
     input.measuredPeriod = measured_;
     input.guidance = spec_.guidance;
     if (spec_.fixtures) {

@@ -20,11 +20,8 @@ public:
         , cycle_(tool_, shapes, options_, start) {}
 
     const StepRecord& step(const Pose& raw) {
-        StepInput input;
-        input.time = time_;
-        input.deviceThandle = raw;
+        StepInput input = stepInput({raw, guidance.empty() ? 0 : kGuidanceButton}, time_);
         input.guidance = guidance;
-        input.buttons = guidance.empty() ? 0 : kGuidanceButton;
         time_ += options_.period;
         return record_ = cycle_.step(input);
     }

@@ -62,11 +62,8 @@ public:
 
 private:
     double step(const Pose& device, bool count) {
-        StepInput input;
-        input.time = time_;
-        input.deviceThandle = device;
+        const Wrench now = cycle_.step(stepInput({device}, time_)).wrench;
         time_ += options_.period;
-        const Wrench now = cycle_.step(input).wrench;
         const dvec3 moved = device.position - was_.position;
         const dvec3 turned = rotationBetween(was_.rotation, device.rotation);
         const double work = 0.5 * (glm::dot(now.force + before_.force, moved) +
