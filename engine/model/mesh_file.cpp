@@ -5,6 +5,7 @@
 #include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/number_text.h"
 #include "engine/types/parse_number.h"
 #include "engine/types/printable.h"
 #include "engine/types/printed.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace fathom {
 
@@ -48,19 +50,41 @@ dvec3 upright(const dvec3& p, char up) {
     return up == 'x' ? dvec3(-p.z, p.y, p.x) : p;
 }
 
-// Throws for a unit of a .dae that is no size: the library would take 1 m for what it cannot read, and mirror
-// the mesh for a negative one.
-void checkDaeUnit(const std::filesystem::path& file) {
+// The library would take 1 m for a unit that it cannot read, and mirror the mesh for a negative one.
+void checkDaeUnit(const std::string& file, const std::string& metre) {
+    std::string number = metre.substr(metre.starts_with('+') ? 1 : 0);
+    std::ranges::replace(number, ',', '.'); // of exporters in some locales
+    double value = 1.0;
+    if (!metre.empty() && !(parseWhole(number, value) && value > 0.0 && std::isfinite(value))) {
+        throw BadInput(file, "unit", "meter=\"" + printable(metre) + "\"", "metres per unit, above 0");
+    }
+}
+
+bool isIdentity(const std::string& matrix) {
+    std::istringstream in(matrix);
+    double value = 0.0;
+    size_t count = 0;
+    for (; in >> value; ++count) {
+        if (!(std::abs(value - (count % 5 == 0 ? 1.0 : 0.0)) <= 1e-6)) {
+            return false;
+        }
+    }
+    return count == 16;
+}
+
+// Throws for what the library reads without a word as another shape: units that are no size, fans of
+// triangles (it loses their middle), and skins whose geometry is moved first.
+void checkDae(const std::filesystem::path& file) {
     const std::string text = endingOf(file) == ".dae" ? readFileAtMost(file, kLargestMesh).value_or("") : "";
-    for (XmlTags tags(text); tags.next() && !tags.tag().name.starts_with("library_");) {
-        const bool unit = tags.tag().name == "unit" && tags.path() == "COLLADA/asset";
-        const std::string metre = unit ? xmlAttribute(tags.tag().text, "meter") : "";
-        std::string number = metre.substr(metre.starts_with('+') ? 1 : 0);
-        std::ranges::replace(number, ',', '.'); // of exporters in some locales
-        double value = 1.0;
-        if (!metre.empty() && !(parseWhole(number, value) && value > 0.0 && std::isfinite(value))) {
-            throw BadInput(file.string(), "unit", "meter=\"" + printable(metre) + "\"",
-                           "metres per unit, above 0");
+    for (XmlTags tags(text); tags.next();) {
+        const std::string_view name = tags.tag().name;
+        if (name == "unit" && tags.path() == "COLLADA/asset") {
+            checkDaeUnit(file.string(), xmlAttribute(tags.tag().text, "meter"));
+        } else if (name == "trifans") {
+            throw BadInput(file.string(), "mesh", "<trifans>", "triangles, polylist, polygons or tristrips");
+        } else if (name == "bind_shape_matrix" && !isIdentity(tags.content())) {
+            throw BadInput(file.string(), "bind_shape_matrix", printable(tags.content()).substr(0, 160),
+                           "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1; apply the armature before you export the mesh");
         }
     }
 }
@@ -87,7 +111,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     }
     refuseStandIn(file, kinds);
     noteInput(file);
-    checkDaeUnit(file);
+    checkDae(file);
     auto [mesh, fault] = importTriangles(file, reader);
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);
@@ -132,7 +156,7 @@ std::string unitWarning(const std::filesystem::path& file, const MeshOptions& op
 LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& options) {
     const double scale = options.scale.value_or(1.0);
     if (!(scale > 0.0) || !std::isfinite(scale)) {
-        throw BadInput(file.string(), "--scale", std::to_string(scale), "a positive number");
+        throw BadInput(file.string(), "--scale", significant(scale, 6), "a positive number");
     }
     LoadedMesh loaded{readTriangles(file, options.reader), {}, {}};
     TriangleMesh& mesh = loaded.mesh;

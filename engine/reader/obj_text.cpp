@@ -40,12 +40,23 @@ bool addNumber(std::string_view word, std::string& plain) {
     return true;
 }
 
-// The vertex of a corner "vertex/texture/normal".
-bool addCorner(std::string_view word, std::string& plain) {
+// Vertices read so far, and the farthest one that a face has named: it may follow in a later line.
+struct ObjVertices {
+    long long count = 0;
+    long long named = 0;
+    size_t namedInLine = 0;
+};
+
+// The vertex of a corner "vertex/texture/normal". Negative numbers count back from the last vertex.
+bool addCorner(std::string_view word, size_t line, ObjVertices& vertices, std::string& plain) {
     word = word.substr(0, word.find('/'));
     long long vertex = 0;
-    if (!parseWhole(word, vertex) || vertex == 0) {
+    if (!parseWhole(word, vertex) || vertex == 0 || vertex < -vertices.count) {
         return false;
+    }
+    if (vertex > vertices.named) {
+        vertices.named = vertex;
+        vertices.namedInLine = line;
     }
     plain.append(word).push_back(' ');
     return true;
@@ -65,13 +76,15 @@ bool isFreeForm(std::string_view word) {
 }
 
 // Numbers behind the first three are a weight or a colour. False for a line that is not understood.
-bool addLine(const std::vector<std::string_view>& words, std::string& plain) {
+bool addLine(const std::vector<std::string_view>& words, size_t line, ObjVertices& vertices,
+             std::string& plain) {
     const bool vertex = isVertex(words[0]);
+    vertices.count += vertex ? 1 : 0;
     const size_t wanted = vertex ? 4 : words.size();
     bool good = words.size() >= wanted && words.size() > 1;
     plain += vertex ? "v " : "f ";
     for (size_t i = 1; good && i < wanted; ++i) {
-        good = vertex ? addNumber(words[i], plain) : addCorner(words[i], plain);
+        good = vertex ? addNumber(words[i], plain) : addCorner(words[i], line, vertices, plain);
     }
     plain.back() = '\n';
     return good;
@@ -139,15 +152,20 @@ std::string plainObj(const std::filesystem::path& file, std::string& plain) {
     ObjLines lines(file);
     plain.clear();
     bool faces = false;
+    ObjVertices vertices;
     for (std::string line; lines.next(line);) {
         const std::vector<std::string_view> words = objWords(line);
         const bool freeForm = isFreeForm(words[0]);
-        if (freeForm || !addLine(words, plain)) {
+        if (freeForm || !addLine(words, lines.number(), vertices, plain)) {
             return "line " + std::to_string(lines.number()) + ": '" + line.substr(0, kShownText) +
                    (freeForm ? "', a free-form surface, not faces"
-                             : "', not 'v x y z' or 'f' and vertex numbers");
+                             : "', not 'v x y z' or 'f' and numbers of vertices");
         }
         faces = faces || isFace(words[0]);
+    }
+    if (vertices.named > vertices.count) {
+        return "line " + std::to_string(vertices.namedInLine) + ": vertex " + std::to_string(vertices.named) +
+               " of " + std::to_string(vertices.count);
     }
     return plain.empty() ? "no vertices" : faces ? "" : "no faces";
 }

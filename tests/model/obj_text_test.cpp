@@ -93,6 +93,9 @@ TEST_CASE("An OBJ with a vertex or face that is not understood is rejected with 
     CHECK(refuses(replaced(kObjTetra, "v 0.1", "v nan"), "line 2: "));
     CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 1 a 2"), "line 5: 'f 1 a 2'"));
     CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 0 3 2"), "line 5: "));
+    CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 1 5 2"), "line 5: vertex 5 of 4"));
+    CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 1 -5 2"), "line 5: 'f 1 -5 2'"));
+    CHECK(readObj(kObjFaces + kObjVertices) == kRead);
     CHECK(refuses(kObjVertices + "p 1\n", "no faces"));
     CHECK(refuses("an OBJ?\n", "no vertices"));
     CHECK(refuses("", "no vertices"));
