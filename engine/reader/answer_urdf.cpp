@@ -164,12 +164,15 @@ std::string faultOf(const std::vector<std::string>& errors, const std::string& t
 
 // What the parser would accept instead of the value that it reports.
 std::string allowedFor(const std::string& fault) {
-    constexpr std::array<std::array<const char*, 2>, 4> kAllowed{
+    constexpr std::array<std::array<const char*, 2>, 7> kAllowed{
         {{"does not specify limits",
           R"(<limit lower="l" upper="u"/> [rad], [m]; type="continuous" for a joint that turns without limits)"},
          {"has no known type", "revolute, continuous, prismatic, fixed, planar, floating, in small letters"},
          {"'version' specified", R"(<robot version="1.0">, or no version)"},
-         {"No name given for the robot", R"(<robot name="n">)"}}};
+         {"No name given for the robot", R"(<robot name="n">)"},
+         {"is not a valid float", "a finite number, such as -1.5"},
+         {"Unable to parse component", R"(numbers with spaces between, such as "0 0 1.5")"},
+         {"elements but", R"(three numbers with spaces between, such as "0 0 1.5")"}}};
     const auto found = std::ranges::find_if(
         kAllowed, [&](const auto& line) { return fault.find(line[0]) != std::string::npos; });
     return found == kAllowed.end() ? "a URDF robot" : (*found)[1];

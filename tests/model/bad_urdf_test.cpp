@@ -33,10 +33,16 @@ TEST_CASE("Two roots, circles, limits that are crossed or no numbers, and too ma
                       "root"));
     CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='1' upper='-1' velocity='1' effort='1'/>")),
                       "joint j: lower 1, upper -1 (allowed: lower <= upper)"));
-    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='nan' upper='1' velocity='1' effort='1'/>")),
-                      "(allowed: "));
-    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='0' upper='many' velocity='1' effort='1'/>")),
-                      "(allowed: "));
+    for (const char* limit : {"lower='nan' upper='1'", "lower='0' upper='many'", "lower='-3,14' upper='1'"}) {
+        CHECK(
+            reportsOnly(urdfRefusal(withLimit("<limit " + std::string(limit) + " velocity='1' effort='1'/>")),
+                        "(allowed: a finite number, such as -1.5)"));
+    }
+    for (const char* axis : {"0,1,0", "0 1"}) {
+        CHECK(reportsOnly(urdfRefusal(ballLink("a") + ballLink("b") +
+                                      jointText("j", "continuous", "a", "b", "0 0 0", axis)),
+                          "numbers with spaces between, such as \"0 0 1.5\")"));
+    }
     CHECK(reportsOnly(urdfRefusal(withLimit("")), "(allowed: "));
     std::string many;
     for (int i = 0; i < 50'000; ++i) {
