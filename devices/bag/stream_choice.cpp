@@ -170,8 +170,8 @@ const ImageStream* StreamChooser::bestDepth() const {
     Score best;
     const ImageStream* depth = nullptr;
     for (const auto& [d, how] : depths()) {
-        const Score score{how, d->lens.has_value(), !namedRangeImage(d->name), namedPlainly(d->name),
-                          !d->compressed};
+        const Score score{how, d->lens.has_value(), rangeName(d->name) != RangeName::Surely,
+                          namedPlainly(d->name), !d->compressed};
         if (depth == nullptr || score > best) {
             best = score;
             depth = d;
@@ -217,7 +217,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
                               depthFit,
                               colourFit,
                               found.rank,
-                              !namedRangeImage(d->name), // simulators publish both kinds
+                              rangeName(d->name) != RangeName::Surely, // simulators publish both kinds
                               sharedParts(d->name, c->name),
                               sharedWords(d->name, c->name),
                               -glm::length(found.colourTdepth.position), // else the nearer camera
@@ -282,8 +282,9 @@ StreamChoice StreamChooser::choose() {
     if (choice.colour) {
         warnOf(*choice.colour, choice);
     }
-    if (namedRangeImage(depth->name) && !choice.rangeImages) {
-        choice.warnings.push_back(axisWarning(depth->name, "a file of the lens (intrinsics=FILE)"));
+    const std::string axis = axisWarning(depth->name, "a file of the lens (intrinsics=FILE)");
+    if (!axis.empty() && !choice.rangeImages) {
+        choice.warnings.push_back(axis);
     }
     choice.camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();

@@ -5,23 +5,55 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <glm/geometric.hpp>
 #include <string_view>
 
 namespace fathom {
 
-bool namedRangeImage(const std::string& name) {
-    constexpr std::array<std::string_view, 3> kRanges{"distance_to_camera", "depthperspective",
-                                                      "depth_perspective"};
-    const std::string lower = lowerCase(name);
-    return std::ranges::any_of(kRanges,
+namespace {
+
+template <size_t N>
+bool hasAny(const std::string& lower, const std::array<std::string_view, N>& words) {
+    return std::ranges::any_of(words,
                                [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
+// Whether a word of the name begins so. A capital begins a word, too.
+bool hasWord(const std::string& name, std::string_view word) {
+    const std::string lower = lowerCase(name);
+    for (size_t at = lower.find(word); at != std::string::npos; at = lower.find(word, at + 1)) {
+        const bool inWord = at > 0 && std::isalpha(static_cast<unsigned char>(lower[at - 1])) != 0;
+        if (!inWord || std::isupper(static_cast<unsigned char>(name[at])) != 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+RangeName rangeName(const std::string& name) {
+    constexpr std::array<std::string_view, 3> kRanges{"distance_to_camera", "depthperspective",
+                                                      "depth_perspective"};
+    constexpr std::array<std::string_view, 3> kAlongRays{"radial", "euclid", "slant"};
+    constexpr std::array<std::string_view, 3> kNotRanges{"plane", "planar", "depth"};
+    const std::string lower = lowerCase(name);
+    const bool distance = hasWord(name, "distance") || hasWord(name, "range");
+    if (hasAny(lower, kRanges) || (hasAny(lower, kAlongRays) && (distance || hasWord(name, "depth")))) {
+        return RangeName::Surely;
+    }
+    return distance && !hasAny(lower, kNotRanges) ? RangeName::Perhaps : RangeName::No;
+}
+
 std::string axisWarning(const std::string& name, const std::string& option) {
-    return name +
-           ": named as ranges along the rays, played as depth along the axis: \"depth_is\": \"range\" in " +
-           option + " takes them as ranges";
+    const RangeName how = rangeName(name);
+    return how == RangeName::No ? ""
+                                : name + ": named as " +
+                                      (how == RangeName::Surely ? "ranges along the rays"
+                                                                : "what may be ranges along the rays") +
+                                      ", played as depth along the axis: \"depth_is\": \"range\" in " +
+                                      option + " takes them as ranges";
 }
 
 RangeToAxis::RangeToAxis(const Intrinsics& lens) {

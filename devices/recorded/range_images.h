@@ -11,10 +11,13 @@
 
 namespace fathom {
 
-// By the names that simulators give: "distance_to_camera" (Isaac Sim), "DepthPerspective" (AirSim).
-bool namedRangeImage(const std::string& name);
-// Warning for images with such a name that are played as depth along the axis. option: what takes them as
-// ranges.
+// Whether a topic or file is named as ranges: surely by "distance_to_camera" (Isaac Sim), "DepthPerspective"
+// (AirSim), "radial_distance" and the like; perhaps by a word such as "distance" (ifm3d) or "range" (Ouster)
+// without one of a plane.
+enum class RangeName { No, Perhaps, Surely };
+RangeName rangeName(const std::string& name);
+// Warning for images with such a name that are played as depth along the axis, empty for others. option: what
+// takes them as ranges.
 std::string axisWarning(const std::string& name, const std::string& option);
 
 // Maps ranges to depth along the axis. One thread.

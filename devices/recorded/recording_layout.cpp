@@ -237,9 +237,9 @@ void warnAboutAxis(const RecordingLayout& layout, const fs::path& folder) {
     if (layout.index.empty() || layout.intrinsics.rangeImages) {
         return;
     }
-    const fs::path& first = layout.index.front().depth;
-    if (namedRangeImage(first.lexically_relative(folder).string())) {
-        log::warn("{}", axisWarning(first.string(), "the file of the lens"));
+    const std::string first = layout.index.front().depth.lexically_relative(folder).string();
+    if (const std::string warning = axisWarning(first, "the file of the lens"); !warning.empty()) {
+        log::warn("{}/{}", folder.string(), warning);
     }
 }
 

@@ -22,7 +22,7 @@ BagMaker simulatorBag(const std::vector<std::string>& depths) {
 bool warnsOfRanges(const BagCamera& camera) {
     const auto said = camera.warnings();
     return std::any_of(said.begin(), said.end(), [](const std::string& line) {
-        return line.find("named as ranges along the rays") != std::string::npos;
+        return line.find("ranges along the rays, played as depth") != std::string::npos;
     });
 }
 
@@ -40,7 +40,10 @@ TEST_CASE("A bag with ranges and depth of the same view plays depth, in either o
 
 TEST_CASE("Ranges in a bag have a warning, and depth_is in the file of the lens makes depth of them") {
     const TemporaryFolder folder;
-    for (const char* topic : {"/distance_to_camera", "/drone/front/DepthPerspective"}) {
+    for (const char* topic :
+         {"/distance_to_camera", "/drone/front/DepthPerspective", "/tof/radial_distance/image",
+          "/sim/euclideanDepth", "/ifm3d/camera/distance", "/tof/rangeImage"}) {
+        CAPTURE(topic);
         BagCamera plain = playStreams(folder, simulatorBag({topic}));
         CHECK(warnsOfRanges(plain));
         CHECK(firstDepth(plain) == doctest::Approx(0.9));
@@ -52,5 +55,14 @@ TEST_CASE("Ranges in a bag have a warning, and depth_is in the file of the lens 
         CHECK_FALSE(warnsOfRanges(camera));
         const double x = 3.5 / 7.0, y = 2.5 / 7.0; // of the ray of the first pixel
         CHECK(firstDepth(camera) == doctest::Approx(0.9 / std::sqrt(1.0 + x * x + y * y)).epsilon(0.001));
+    }
+}
+
+TEST_CASE("Depth of a plane has no warning of ranges, whatever else its name contains") {
+    const TemporaryFolder folder;
+    for (const char* topic :
+         {"/front/distance_to_image_plane", "/cam/depth_range/image", "/arranged/depth"}) {
+        CAPTURE(topic);
+        CHECK_FALSE(warnsOfRanges(playStreams(folder, simulatorBag({topic}))));
     }
 }
