@@ -5,6 +5,7 @@
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -173,8 +174,8 @@ std::string BagCamera::changed(uint64_t time) {
             const double now = static_cast<double>(ros::float32(message)), first = info().metresPerUnit;
             return std::abs(now - first) <= 1e-6 * first
                        ? ""
-                       : "the depth unit changes from " + std::to_string(first) + " to " +
-                             std::to_string(now) + " m";
+                       : "the depth unit changes from " + significant(first, 6) + " to " +
+                             significant(now, 6) + " m";
         });
     }
     if (fault.empty() && depthLenses_) {

@@ -5,6 +5,7 @@
 #include "devices/recorded/depth_scale.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 
 #include <cmath>
 
@@ -52,7 +53,7 @@ double BagCamera::sensorUnit() {
     // Stored as float: use 0.001, not 0.0010000000474974513.
     const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(*topic, 0)))) * 1e-9;
     if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
-        throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
+        throw BadInput(file_->file().string(), topic->name, significant(unit, 6),
                        "0.000001 to 0.1 metres per unit, or scale=M after the file name");
     }
     const std::string both = choice_.statedUnit ? unitsDiffer(options_.intrinsics.filename().string(),

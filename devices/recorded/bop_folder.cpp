@@ -82,7 +82,7 @@ RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::strin
 double unitOf(const BopImage& image, const std::string& file) {
     const double unit = 1e-3 * image.unit;
     if (unit < kFinestUnit || unit > kCoarsestUnit) {
-        throw BadInput(file, "depth_scale", std::to_string(image.unit), "millimetres per unit, 0.001 to 100");
+        throw BadInput(file, "depth_scale", significant(image.unit, 6), "millimetres per unit, 0.001 to 100");
     }
     return unit;
 }

@@ -3,6 +3,7 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <array>
 #include <cmath>
@@ -63,14 +64,14 @@ void setOption(SourceOptions& options, const std::string& key, const std::string
 
 void SourceOptions::checkUnit(const std::string& file) const {
     if (scale && !(*scale >= kFinestUnit && *scale <= kCoarsestUnit)) {
-        throw BadInput(file, "scale", std::to_string(*scale),
+        throw BadInput(file, "scale", significant(*scale, 6),
                        "metres per unit, 0.000001 to 0.1; 1000 units per metre are 0.001");
     }
 }
 
 void SourceOptions::checkMetres(const std::string& file) const {
     if (scale && !(*scale >= kFinestUnit && *scale <= kCoarsestValue)) {
-        throw BadInput(file, "scale", std::to_string(*scale),
+        throw BadInput(file, "scale", significant(*scale, 6),
                        "metres per unit, 0.000001 to 100; 1000 units per metre are 0.001");
     }
 }

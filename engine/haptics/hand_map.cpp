@@ -2,6 +2,7 @@
 #include "engine/haptics/hand_map.h"
 
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <cmath>
 #include <string>
@@ -12,7 +13,7 @@ HandMap::HandMap(const dquat& baseRdevice, double scale)
     : baseRdevice_(baseRdevice)
     , scale_(scale) {
     if (!(scale > 0.0) || !std::isfinite(scale)) {
-        throw Error("hand map: scale is " + std::to_string(scale) + " (allowed: a finite number above 0)");
+        throw Error("hand map: scale is " + significant(scale, 6) + " (allowed: a finite number above 0)");
     }
     if (!(std::abs(glm::dot(baseRdevice, baseRdevice) - 1.0) < 1e-6)) {
         throw Error("hand map: base_R_device is not of unit length");

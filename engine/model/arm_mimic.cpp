@@ -2,6 +2,7 @@
 #include "engine/model/arm_mimic.h"
 
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,8 @@ JointTie tieOf(const urdf::ModelInterface& model, const std::filesystem::path& f
     for (size_t steps = 0; at->mimic && at->type != urdf::Joint::FIXED; ++steps) {
         const urdf::JointMimic& mimic = *at->mimic;
         if (!std::isfinite(mimic.multiplier) || !std::isfinite(mimic.offset)) {
-            refuse("multiplier " + std::to_string(mimic.multiplier) + ", offset " +
-                       std::to_string(mimic.offset),
+            refuse("multiplier " + significant(mimic.multiplier, 6) + ", offset " +
+                       significant(mimic.offset, 6),
                    "finite numbers");
         }
         const auto next = model.joints_.find(mimic.joint_name);

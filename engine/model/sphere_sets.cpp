@@ -6,6 +6,7 @@
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -38,7 +39,7 @@ Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::
     }
     const Sphere sphere{poseOf(collision.origin).position, ball->radius};
     if (!isFinite(sphere.centre) || !(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
-        throw BadInput(file.string(), field, "a sphere of radius " + std::to_string(ball->radius),
+        throw BadInput(file.string(), field, "a sphere of radius " + significant(ball->radius, 6),
                        "finite centre, radius above 0");
     }
     return sphere;

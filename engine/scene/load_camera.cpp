@@ -4,6 +4,7 @@
 
 #include "engine/types/angle.h"
 #include "engine/types/decimation.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 
@@ -115,9 +116,9 @@ void loadDepthRange(const YamlNode& camera, Scene& scene) {
     }
     // The file may contain only one of the two: report that one.
     if (nearZ) {
-        nearZ->refuse("a number below camera.far = " + std::to_string(scene.farZ));
+        nearZ->refuse("a number below camera.far = " + significant(scene.farZ, 6));
     }
-    farZ->refuse("a number above camera.near = " + std::to_string(scene.nearZ));
+    farZ->refuse("a number above camera.near = " + significant(scene.nearZ, 6));
 }
 
 void loadPort(const YamlNode& node, Scene& scene) {
@@ -125,7 +126,7 @@ void loadPort(const YamlNode& node, Scene& scene) {
     FlatPort port;
     port.distance = node.at("distance").number(Range::between(0.0, 10.0));
     if (!(port.distance < scene.nearZ)) {
-        node.at("distance").refuse("a number below camera.near = " + std::to_string(scene.nearZ));
+        node.at("distance").refuse("a number below camera.near = " + significant(scene.nearZ, 6));
     }
     node.read("index", port.index, Range::between(1.0, 2.0));
     scene.port = port;

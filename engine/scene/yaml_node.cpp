@@ -77,7 +77,12 @@ void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
     }
     std::set<std::string> seen;
     for (const auto& entry : node_) {
-        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+        if (!entry.first.IsScalar()) {
+            const std::string line = "line " + std::to_string(entry.first.Mark().line + 1);
+            throw BadInput(file_, path_.empty() ? line : path_ + ", " + line, "a key that is not a word",
+                           joined(words));
+        }
+        const std::string key = entry.first.Scalar();
         if (key == "<<") {
             throw BadInput(file_, childPath(key), "a merge key", "keys written out: " + joined(words));
         }

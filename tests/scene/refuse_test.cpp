@@ -70,6 +70,7 @@ TEST_CASE("Unknown keys are rejected at every level with the nearest known key")
         section("contact: {raech: 1}", "contact.raech: unknown key, did you mean 'reach'?", "reach"),
         {"fixtures: []\ntool: {sphere: []}\n", "tool.sphere: unknown key, did you mean 'spheres'?", "file"},
         section("contact: {delay: 0, delay: 1}", "contact.delay: given twice", "once"),
+        section("contact: {? [a, b] : 1}", "contact, line 3: a key that is not a word", "delay"),
     });
 }
 
