@@ -39,7 +39,10 @@ std::string sizeOf(const CameraInfo& camera) {
     return size + (camera.decimation > 1 ? ", decimation " + std::to_string(camera.decimation) : "");
 }
 
-void printNotes(const Scene& scene, const CameraInfo& camera) {
+void printNotes(const Scene& scene, const CameraInfo& camera, const std::string& device) {
+    if (!scene.hasPoints() && !device.empty()) {
+        std::cout << "note    --device " << printable(device) << " is not used: no fixture uses points\n";
+    }
     for (const auto& notes : {hapticNotes(scene), unusedKeys(scene), equalityNotes(scene)}) {
         for (const std::string& note : notes) {
             std::cout << "note    " << note << "\n";
@@ -93,7 +96,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
             std::cout << "        " << note << "\n";
         }
     }
-    printNotes(scene, camera->info());
+    printNotes(scene, camera->info(), global.device);
     printRefusals(scene, arm.get());
     std::cout << "\nin: this scene uses it; out: it does not\n";
     printPlan(std::cout, plan);

@@ -108,6 +108,9 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     const StudyContext context{device, settings};
     const auto began = Clock::now();
     Facts facts = runFacts(device, settings, commandOf(settings, global));
+    if (!global.trace.empty()) { // first, because its file may turn out not to be writable
+        writeTimeLine(context, global.trace);
+    }
     std::vector<Study> studies;
     for (const StudyEntry& entry : allStudies()) {
         if (wanted(settings, entry.name)) {
@@ -115,9 +118,6 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
             studies.back().served = servedBy(entry.name, settings);
             writeStudy(studies.back(), facts, settings.out);
         }
-    }
-    if (!global.trace.empty()) {
-        writeTimeLine(context, global.trace);
     }
     const RunTime time{secondsSince(began), static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
     if (global.holdClock) {

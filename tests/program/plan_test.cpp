@@ -130,6 +130,10 @@ TEST_CASE("Guidance alone needs no spheres, tree or query; shapes alone need no 
         CHECK((row.first.starts_with("thread") || !row.second.in));
     }
     checkRunsThat(stage, shapes);
+    const std::string scenePath = (stage / "scene.yaml").string(), source = (stage / "rec").string();
+    CHECK(runFathom({"plan", scenePath, "--source", source, "--device", "nosuch"})
+              .out.find("note    --device nosuch is not used: no fixture uses points\n") !=
+          std::string::npos);
 }
 
 TEST_CASE("Keys that a class's role does not use are a note in the plan and a line in the log of a replay") {
