@@ -2,6 +2,7 @@
 #include "engine/model/cover_links.h"
 
 #include "engine/model/cover_cache.h"
+#include "engine/types/blocked_signals.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -154,7 +155,10 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverC
         }
     };
     std::vector<std::jthread> others(std::min<size_t>(usableProcessors(), some.size()) - 1);
-    std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
+    {
+        const BlockedSignals ofThreads;
+        std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
+    }
     work();
 }
 

@@ -44,7 +44,8 @@ struct EngineOptions {
 /// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Its threads block
 /// all signals but those of faults and SIGPROF. Installs no signal handler, locks no memory, changes no
 /// environment and does not fork; the constructor starts the program fathom-reader for scenes with URDFs or
-/// meshes. After fork() only the parent may use it: in the child its destructor does nothing.
+/// meshes, and keeps compiled pipelines and spheres of links in $XDG_CACHE_HOME/fathom or ~/.cache/fathom.
+/// After fork() only the parent may use it: in the child its destructor does nothing.
 class FATHOM_API Engine {
 public:
     /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to
