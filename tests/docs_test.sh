@@ -117,6 +117,7 @@ for shader in shaders/*.comp; do
 done
 for example in apps/examples/*.cpp; do
     [[ $shown == *" $example "* ]] || { echo "ERROR: no document shows $example as it is"; failed=$((failed + 1)); }
+    [ "$(wc -l <"$example")" -le 60 ] || { echo "ERROR: $example has over 60 lines"; failed=$((failed + 1)); }
 done
 # The README's row on Embree has the extremes of the table. The benchmarks have the number of stability cases without recordings, and
 # the ratios and exponents of the tables.

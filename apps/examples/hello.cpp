@@ -14,8 +14,8 @@
 static void sendFrames(fathom::CameraPort port, const std::atomic<bool>& stop) {
     const std::vector<std::uint16_t> depth(160 * 120, 600);
     for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
-        const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
-        if (status != fathom::SubmitStatus::Accepted) {
+        if (const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
+            status != fathom::SubmitStatus::Accepted) {
             std::fprintf(stderr, "frame rejected: %s\n", fathom::name(status));
         }
     }
@@ -32,10 +32,8 @@ haptics: { device: ideal, stiffness: 1000 }
 )");
     fathom::CameraModel model;
     model.depth = {.width = 160, .height = 120, .fx = 140, .fy = 140, .cx = 80, .cy = 60};
-    fathom::setLogCallback([](fathom::LogLevel level, std::string_view line) {
-        if (level >= fathom::LogLevel::Warning) {
-            std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
-        }
+    fathom::setLogCallback([](fathom::LogLevel, std::string_view line) {
+        std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
     });
     fathom::Engine engine(scene, model);
     std::atomic<bool> stop{false};
@@ -46,14 +44,13 @@ haptics: { device: ideal, stiffness: 1000 }
     hand.deviceThandle.position = {0, 0, 0.5};
     auto port = engine.openHand({.deviceThandle = hand.deviceThandle});
     fathom::Step step;
-    const auto start = std::chrono::steady_clock::now();
-    for (int tick = 0, inContact = 0; tick < 20000 && inContact < 500; ++tick) {
-        std::this_thread::sleep_until(start + std::chrono::milliseconds(tick));
+    auto due = std::chrono::steady_clock::now();
+    for (int tick = 0, pressed = 0; tick < 20000 && pressed < 500; ++tick) {
+        std::this_thread::sleep_until(due += std::chrono::milliseconds(1));
         step = port.step(hand, fathom::now());
-        const bool ready = step.frame >= 0;
-        hand.deviceThandle.position[2] =
-            std::fmin(0.56, hand.deviceThandle.position[2] + (ready ? 0.0002 : 0));
-        inContact = hand.deviceThandle.position[2] == 0.56 ? inContact + 1 : 0;
+        double& z = hand.deviceThandle.position[2];
+        z = std::fmin(0.56, z + (step.frame >= 0 ? 0.0002 : 0));
+        pressed += z == 0.56 ? 1 : 0;
     }
     stop = true;
     camera.join();

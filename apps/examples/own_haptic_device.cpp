@@ -15,10 +15,7 @@ struct MyDevice {
     fathom::Pose pose() const { return {.position = {0, 0, z}}; }
     void write(const fathom::Wrench& wrench) {
         force = wrench.force[2];
-        if (held) {
-            return;
-        }
-        speed += 0.001 * (force + 300.0 * (0.57 - z) - 5.0 * speed) / 0.2;
+        speed += held ? 0.0 : 0.001 * (force + 300.0 * (0.57 - z) - 5.0 * speed) / 0.2;
         z += 0.001 * speed;
     }
 };
