@@ -24,7 +24,7 @@ bool recordingIsThere() {
     if (std::filesystem::exists(kRecording / "associations.txt")) {
         return true;
     }
-    MESSAGE("the recording valve_ball_d435 is not there: nothing is tested");
+    MESSAGE("SKIPPED: there is no recording " << kRecording);
     return false;
 }
 

@@ -20,7 +20,7 @@ bool haveRecording(const std::string& name) {
     if (std::filesystem::is_directory(kRecordings / name)) {
         return true;
     }
-    MESSAGE("SKIPPED ALOUD: there is no recording ", (kRecordings / name).string());
+    MESSAGE("SKIPPED: there is no recording ", (kRecordings / name).string());
     return false;
 }
 

@@ -141,7 +141,7 @@ TEST_CASE("After SIGKILL of a bridge the dead-man switch opens, and the engine r
 
 TEST_CASE("A user without permission on the socket file gets no connection") {
     if (::geteuid() != 0) {
-        MESSAGE("not root: cannot become another user, not checked");
+        MESSAGE("SKIPPED: not root, so it cannot become another user");
         return;
     }
     SocketFolder folder;

@@ -222,7 +222,7 @@ TEST_CASE("Locked joints are excluded from an arm's singular values, also in a r
         arms.push_back(loadArm(file, few));
         CHECK(movingJoints(arms.back()).size() < arms.back().count()); // its anchor is locked
     } else {
-        MESSAGE("SKIPPED ALOUD: no such file: " << file);
+        MESSAGE("SKIPPED: no such file: " << file);
     }
     for (const ArmModel& arm : arms) {
         CAPTURE(arm.count());

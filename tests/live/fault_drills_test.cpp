@@ -155,7 +155,7 @@ TEST_CASE("A device that is unplugged while it presses gets no force, the tool s
     CHECK(largestStep(replay.ticks) <= kSlewStep * (1.0 + 1e-9));
     CHECK(replay.haptic().at("max_penetration_m").get<double>() <= 1e-5);
     if (hopeless) {
-        MESSAGE("SKIPPED ALOUD: the device was lost over and over, its force was not looked for");
+        MESSAGE("SKIPPED: the device was lost over and over, its force was not looked for");
     } else {
         CHECK(felt);
         CHECK(glm::length(before.force) > 1.0);

@@ -206,7 +206,7 @@ TEST_CASE("A device pressed into a region gets at most its force limit, and no f
     CHECK(device.feels(-1e-3, 1e-3));
     const bool again = device.pushUntil(-8.0 - 1e-9, -4.0);
     if (device.hopeless()) {
-        MESSAGE("SKIPPED ALOUD: the device was lost over and over, its full force was not looked for");
+        MESSAGE("SKIPPED: the device was lost over and over, its full force was not looked for");
     } else {
         CHECK(full);
         CHECK(again);

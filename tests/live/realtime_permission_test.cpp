@@ -72,7 +72,7 @@ TEST_CASE(
     "Where it is permitted, the haptic thread alone of a live run has real-time priority, and memory is "
     "locked") {
     if (!permitted()) {
-        MESSAGE("SKIPPED ALOUD: no real-time priority or locked memory is permitted here");
+        MESSAGE("SKIPPED: no real-time priority or locked memory is permitted here");
         return;
     }
     Stage stage;

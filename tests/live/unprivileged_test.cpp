@@ -17,7 +17,7 @@ TEST_CASE("Without permission for priority and locked memory a live run reports 
     setting.unprivileged = true;
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}), setting);
     if (run.exitCode == 126) { // the program's folder is private to this user
-        MESSAGE("SKIPPED ALOUD: the program cannot be started as another user here");
+        MESSAGE("SKIPPED: the program cannot be started as another user here");
         return;
     }
     CAPTURE(run.err);

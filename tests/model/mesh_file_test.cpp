@@ -53,7 +53,7 @@ bool present(const std::filesystem::path& file) {
     if (std::filesystem::exists(file)) {
         return true;
     }
-    MESSAGE("SKIPPED ALOUD: no such file: " << file);
+    MESSAGE("SKIPPED: no such file: " << file);
     return false;
 }
 

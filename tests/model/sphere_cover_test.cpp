@@ -133,7 +133,7 @@ TEST_CASE("The measure detects an uncovered corner and the protrusion of a spher
 TEST_CASE("The tree of a real jaw contains the jaw: the leaves read from the file contain every sample") {
     const std::filesystem::path file = "../shared/data/meshes/uuv_manipulators_Apache-2.0/Jaw.stl";
     if (!std::filesystem::exists(file)) {
-        MESSAGE("SKIPPED ALOUD: no such file: " << file);
+        MESSAGE("SKIPPED: no such file: " << file);
         return;
     }
     const LoadedMesh loaded = loadMesh(file);

@@ -280,7 +280,7 @@ TEST_CASE("The sphere sets that foam made of a real arm are read, with a valid t
     const std::filesystem::path file =
         "../shared/data/meshes/foam_spherized_MIT/smaller_panda_spherized.urdf";
     if (!std::filesystem::exists(file)) {
-        MESSAGE("SKIPPED ALOUD: no such file: " << file);
+        MESSAGE("SKIPPED: no such file: " << file);
         return;
     }
     size_t spheres = 0;

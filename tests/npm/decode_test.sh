@@ -7,7 +7,7 @@
 #   decode_test.sh BUILD_FOLDER
 set -e
 if ! command -v node > /dev/null || [[ ! -d ${FATHOM_NODE_MODULES:-/nowhere}/@mcap/core ]]; then
-    echo "SKIPPED ALOUD: no node, or FATHOM_NODE_MODULES names no folder with @mcap/core"
+    echo "SKIPPED: no node, or FATHOM_NODE_MODULES names no folder with @mcap/core"
     exit 77
 fi
 folder=$(mktemp -d)

@@ -147,8 +147,6 @@ TEST_CASE("An unchanged frame takes no device time and publishes nothing") {
     FrameBench fresh(device, studyScene({}), source.camera);
     const FrameCost whole = fresh.measure(source.frames, {5, 5, 0.0});
     CHECK(whole.frame.submit.count == 5);
-    CHECK(cost.total.p50 > 0.0);
-    CHECK(cost.total.p50 < 0.5 * whole.total.p50);
 }
 
 TEST_CASE("The wall's noise has the simulated camera's sigma at 0.8 m, and every pixel has a reading") {

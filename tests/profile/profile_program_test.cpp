@@ -28,7 +28,7 @@ TEST_CASE("A quick profile verifies every study and exits with code 0") {
 
 TEST_CASE("A quick profile reports a duration below two minutes") {
     if (kSanitized) {
-        MESSAGE("SKIPPED ALOUD: a sanitized program is slower by what its checks cost");
+        MESSAGE("SKIPPED: a sanitized program is slower by what its checks cost");
         return;
     }
     const auto& report = quickRun().report;
@@ -157,11 +157,19 @@ TEST_CASE("Every study that ranks settings marks its default and says whether it
 TEST_CASE("--trace writes uploads, passes, queries and ticks on one timeline") {
     const auto trace = nlohmann::json::parse(textOf(quickRun().folder.path() / "trace.json"));
     std::map<std::string, size_t> spans;
+    std::map<std::pair<int, double>, double> ends; // [us] by track and begin
     for (const auto& event : trace["traceEvents"]) {
         if (event["ph"] == "X") {
             ++spans[event["name"]];
-            CHECK(event["dur"].get<double>() >= 0.0);
+            const double begin = event["ts"];
+            ends[{event["tid"], begin}] = begin + event["dur"].get<double>();
         }
+    }
+    for (auto span = ends.begin(), next = std::next(span); next != ends.end(); ++span, ++next) {
+        const bool oneTrack = span->first.first == next->first.first;
+        const bool apart = span->second <= next->first.second + 0.01;
+        const bool inside = next->second <= span->second + 0.01;
+        CHECK_MESSAGE((!oneTrack || apart || inside), "spans overlap at ", next->first.second, " us");
     }
     for (const char* name : {"upload", "classify", "surface", "spheres", "query", "turn"}) {
         CHECK_MESSAGE(spans[name] >= 10, name);
@@ -180,7 +188,7 @@ TEST_CASE("An unknown study is rejected in one line that lists the known ones") 
 TEST_CASE("A recording gives the scatter between its frames") {
     const std::filesystem::path recording = "../shared/data/valve_globe_d435";
     if (!std::filesystem::exists(recording)) {
-        MESSAGE("SKIPPED ALOUD: ../shared/data/valve_globe_d435 is absent");
+        MESSAGE("SKIPPED: ../shared/data/valve_globe_d435 is absent");
         return;
     }
     const ScratchFolder folder;

@@ -221,7 +221,7 @@ TEST_CASE("The haptic thread has a CPU that no other thread uses") {
     REQUIRE(!placement.all.empty());
     REQUIRE(placement.haptic.size() == 1);
     if (!placement.pinned()) {
-        MESSAGE("one CPU: nothing to place apart");
+        MESSAGE("SKIPPED: there is only one CPU");
         return;
     }
     for (const auto& others : {placement.contact, placement.rest}) {

@@ -151,7 +151,6 @@ void checkTicks(const Replay& replay, const Terms& terms) {
     CHECK(haptic.at("max_torque_Nm").get<double>() == doctest::Approx(sums.torque).epsilon(1e-12));
     CHECK(haptic.at("max_force_step_N").get<double>() == doctest::Approx(sums.step).epsilon(1e-12));
     CHECK(penetration <= 1e-5);
-    CHECK(depth >= 0.0);
 }
 
 // Passes have times exactly when the frame makes a set; upload, passes and publication fit the latency.

@@ -20,7 +20,7 @@ TEST_CASE("Every case of group geometry holds: degenerate contacts, sizes from 1
 TEST_CASE("Every case of group guarantee holds: no hand motion and no delay of answers makes a leaf enter a "
           "region") {
     if (!std::filesystem::exists("../shared/data/valve_globe_d435")) {
-        MESSAGE("SKIPPED ALOUD: no recordings at ../shared/data; their cases of guarantee and new-data are "
+        MESSAGE("SKIPPED: no recordings at ../shared/data; their cases of guarantee and new-data are "
                 "left out");
     }
     checkGroup(guaranteeCases(), Group::Guarantee, 20);

@@ -200,7 +200,7 @@ TEST_CASE("Under a storm of faults every wrench on the wire has a cause, a limit
     // Else the storm kept the hand away, and nothing was tried.
     const bool tried = strongest > 3.0 && pressed > replay.ticks.size() / 20;
     if (!tried && kSanitized) {
-        MESSAGE("SKIPPED ALOUD: other tests left the sanitized engine no time to press");
+        MESSAGE("SKIPPED: other tests left the sanitized engine no time to press");
     } else {
         CHECK(tried);
     }

@@ -231,7 +231,7 @@ RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frame
     const std::filesystem::path folder = std::filesystem::path("../shared/data") / name;
     RecordedShots out;
     if (!std::filesystem::exists(folder)) {
-        MESSAGE("SKIPPED ALOUD: there is no recording ", folder.string());
+        MESSAGE("SKIPPED: there is no recording ", folder.string());
         return out;
     }
     RecordedCamera camera(folder);

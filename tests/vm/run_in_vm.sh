@@ -14,7 +14,7 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cache=${FATHOM_VM_CACHE:-$here/../../build/vm}
 
 skip() {
-    echo "SKIPPED ALOUD: no virtual machine: $1"
+    echo "SKIPPED: no virtual machine: $1"
     exit 77
 }
 
