@@ -20,7 +20,8 @@ namespace fathom {
 namespace {
 
 constexpr int kSilenceMs = 2000;
-constexpr auto kPlayerPause = std::chrono::milliseconds(30);
+// Of the library's player thread, to end what it does to a stopped stream, also on a busy machine.
+constexpr auto kPlayerPause = std::chrono::milliseconds(200);
 
 bool isDepth(openni::PixelFormat format) {
     return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
