@@ -23,8 +23,9 @@ bool hasAny(const std::string& lower, const std::array<std::string_view, N>& wor
 bool hasWord(const std::string& name, std::string_view word) {
     const std::string lower = lowerCase(name);
     for (size_t at = lower.find(word); at != std::string::npos; at = lower.find(word, at + 1)) {
-        const bool inWord = at > 0 && std::isalpha(static_cast<unsigned char>(lower[at - 1])) != 0;
-        if (!inWord || std::isupper(static_cast<unsigned char>(name[at])) != 0) {
+        const auto before = static_cast<unsigned char>(at > 0 ? name[at - 1] : '/');
+        const bool capital = std::isupper(static_cast<unsigned char>(name[at])) != 0;
+        if (std::isalpha(before) == 0 || (capital && std::islower(before) != 0)) {
             return true;
         }
     }
@@ -36,11 +37,12 @@ bool hasWord(const std::string& name, std::string_view word) {
 RangeName rangeName(const std::string& name) {
     constexpr std::array<std::string_view, 3> kRanges{"distance_to_camera", "depthperspective",
                                                       "depth_perspective"};
-    constexpr std::array<std::string_view, 3> kAlongRays{"radial", "euclid", "slant"};
+    constexpr std::array<std::string_view, 3> kAlongRays{"radial", "euclidean", "slant"};
     constexpr std::array<std::string_view, 3> kNotRanges{"plane", "planar", "depth"};
     const std::string lower = lowerCase(name);
     const bool distance = hasWord(name, "distance") || hasWord(name, "range");
-    if (hasAny(lower, kRanges) || (hasAny(lower, kAlongRays) && (distance || hasWord(name, "depth")))) {
+    const bool alongRays = std::ranges::any_of(kAlongRays, [&](auto word) { return hasWord(name, word); });
+    if (hasAny(lower, kRanges) || (alongRays && (distance || hasWord(name, "depth")))) {
         return RangeName::Surely;
     }
     return distance && !hasAny(lower, kNotRanges) ? RangeName::Perhaps : RangeName::No;

@@ -13,7 +13,7 @@ namespace fathom {
 
 // Whether a topic or file is named as ranges: surely by "distance_to_camera" (Isaac Sim), "DepthPerspective"
 // (AirSim), "radial_distance" and the like; perhaps by a word such as "distance" (ifm3d) or "range" (Ouster)
-// without one of a plane.
+// without a word of depth or of a plane.
 enum class RangeName { No, Perhaps, Surely };
 RangeName rangeName(const std::string& name);
 // Warning for images with such a name that are played as depth along the axis, empty for others. option: what
