@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 
 namespace fathom {
@@ -62,6 +63,7 @@ void checkDaeUnit(const std::string& file, const std::string& metre) {
 
 bool isIdentity(const std::string& matrix) {
     std::istringstream in(matrix);
+    in.imbue(std::locale::classic()); // not the program's own
     double value = 0.0;
     size_t count = 0;
     for (; in >> value; ++count) {
@@ -82,8 +84,9 @@ void checkDae(const std::filesystem::path& file) {
             checkDaeUnit(file.string(), xmlAttribute(tags.tag().text, "meter"));
         } else if (name == "trifans") {
             throw BadInput(file.string(), "mesh", "<trifans>", "triangles, polylist, polygons or tristrips");
-        } else if (name == "bind_shape_matrix" && !isIdentity(tags.content())) {
-            throw BadInput(file.string(), "bind_shape_matrix", printable(tags.content()).substr(0, 160),
+        } else if (const std::string matrix = name == "bind_shape_matrix" ? tags.content() : "";
+                   !matrix.empty() && !isIdentity(matrix)) {
+            throw BadInput(file.string(), "bind_shape_matrix", printable(matrix.substr(0, 160)),
                            "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1; apply the armature before you export the mesh");
         }
     }

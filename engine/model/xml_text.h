@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Walks the text of an XML file piece by piece, to change parts of it and keep the rest as it is. For files
-// that a real parser has accepted.
+// Walks the text of an XML file piece by piece, to change parts of it and keep the rest as it is. Malformed
+// text gives pieces that mean nothing: a real parser accepts or rejects the file.
 #pragma once
 
 #include <string>
