@@ -161,10 +161,12 @@ TEST_CASE("--trace writes uploads, passes, queries and ticks on one timeline") {
     for (const auto& event : trace["traceEvents"]) {
         if (event["ph"] == "X") {
             ++spans[event["name"]];
-            const double begin = event["ts"];
-            ends[{event["tid"], begin}] = begin + event["dur"].get<double>();
+            const double begin = event["ts"], duration = event["dur"];
+            CHECK(duration >= 0.0);
+            ends[{event["tid"], begin}] = begin + duration;
         }
     }
+    REQUIRE(!ends.empty());
     for (auto span = ends.begin(), next = std::next(span); next != ends.end(); ++span, ++next) {
         const bool oneTrack = span->first.first == next->first.first;
         const bool apart = span->second <= next->first.second + 0.01;
