@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/realtime_run.h"
 
+#include "engine/run/run_alarms.h"
 #include "engine/types/blocked_signals.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -13,9 +14,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kWriterBacklog = 8.0;     // [s] of steps that the writer may fall behind
-constexpr double kHeadStart = 0.02;        // [s] for the threads to get ready before t = 0
-constexpr double kQuietAfterWarning = 5.0; // [s] without another one of the same kind
+constexpr double kWriterBacklog = 8.0; // [s] of steps that the writer may fall behind
+constexpr double kHeadStart = 0.02;    // [s] for the threads to get ready before t = 0
 constexpr auto kWriterPause = std::chrono::milliseconds(2);
 
 uint64_t tickCapacity(double period) {
@@ -42,56 +42,6 @@ public:
 private:
     std::atomic<bool>& stop_;
     std::thread thread_;
-};
-
-// Warns once about a scene that is too old. Short spells on a slow machine are only counted.
-class AgeAlarm {
-public:
-    explicit AgeAlarm(bool warns)
-        : warns_(warns) {}
-
-    void see(const StepRecord& record) {
-        const bool stale = isOld(record.sceneAge);
-        staleTicks_ += stale ? 1 : 0;
-        if (warns_ && stale && !stale_ && record.t >= quietUntil_) {
-            const bool ahead = record.sceneAge < 0.0;
-            log::warn("at {:.2f} s the newest frame is {:.0f} ms {}: forces fade", record.t,
-                      std::abs(record.sceneAge) * 1e3,
-                      ahead ? "ahead of the clock (allowed: stamps of the monotonic clock)" : "old");
-            quietUntil_ = record.t + kQuietAfterWarning;
-            warned_ = true;
-        } else if (!stale && warned_) {
-            log::warn("at {:.2f} s frames are fresh again", record.t);
-            warned_ = false;
-        }
-        stale_ = stale;
-    }
-    uint64_t staleTicks() const { return staleTicks_; }
-
-private:
-    bool warns_;
-    double quietUntil_ = 0.0;
-    bool stale_ = false, warned_ = false;
-    uint64_t staleTicks_ = 0;
-};
-
-// Warns when non-finite numbers begin, from the hand or elsewhere; such steps have no force.
-class NumberAlarm {
-public:
-    void see(const TickRow& row) {
-        const bool broken = !row.record.finite;
-        if (broken && !broken_ && row.record.t >= quietUntil_) {
-            const bool fromHand = !isFinite(row.hand.deviceThandle);
-            log::warn("at {:.2f} s {} not finite: no force in such ticks", row.record.t,
-                      fromHand ? "the hand's sample is" : "a number of the tick is");
-            quietUntil_ = row.record.t + kQuietAfterWarning;
-        }
-        broken_ = broken;
-    }
-
-private:
-    double quietUntil_ = 0.0;
-    bool broken_ = false;
 };
 
 // Puts the alarms between the drain and the sink.
