@@ -44,6 +44,15 @@ private:
     std::thread thread_;
 };
 
+// Releases the memory that the haptic thread locked, also on exceptions.
+class LockedMemory {
+public:
+    LockedMemory() = default;
+    LockedMemory(const LockedMemory&) = delete;
+    LockedMemory& operator=(const LockedMemory&) = delete;
+    ~LockedMemory() { releaseLockedMemory(); }
+};
+
 // Puts the alarms between the drain and the sink.
 class WatchedSink final : public ForwardingSink {
 public:
@@ -111,6 +120,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     };
     clock_.start(kHeadStart);
     {
+        const LockedMemory untilThreadsEnd;
         StoppedThread camera(ending_, [&] { runOn(options_.placement.rest, frames_); });
         std::optional<StoppedThread> contact, clearance;
         if (contact_) {
@@ -129,7 +139,6 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
         });
         write(drain, stop);
     }
-    releaseLockedMemory();
     drain.drain(true);
     missed_ = haptic.missed();
     staleTicks_ = watched.staleTicks();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Threads and memory of a live run where the kernel permits real-time priority and locked memory.
 #include "tests/rig/stage.h"
+#include "tests/support/locked_memory.h"
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
@@ -57,15 +58,6 @@ std::vector<int> realTimePriorities(pid_t process) {
     return priorities;
 }
 
-long lockedKiB(pid_t process) {
-    std::ifstream file("/proc/" + std::to_string(process) + "/status");
-    std::string word;
-    long size = 0;
-    while (file >> word && word != "VmLck:") {
-    }
-    return file >> size ? size : 0;
-}
-
 } // namespace
 
 TEST_CASE(
@@ -86,7 +78,7 @@ TEST_CASE(
     while (::waitpid(child, &status, WNOHANG) == 0) {
         const std::vector<int> now = realTimePriorities(child);
         priorities = now.size() > priorities.size() ? now : priorities;
-        locked = std::max(locked, lockedKiB(child));
+        locked = std::max(locked, testing::lockedKiB(child));
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     const std::string said = stage.read("said");

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a haptic loop tells the arm, and what it does with ticks that it missed; signals during a run.
+// What a haptic loop tells the arm, and what it does with ticks that it missed; signals during a run and
+// locked memory after it.
 #include "engine/run/haptic_loop.h"
+#include "engine/types/error.h"
 
 #include <csignal>
 #include <doctest/doctest.h>
+#include <optional>
 #include <thread>
+#include <unistd.h>
 
 #include "tests/haptics/arm_proxy_world.h"
 #include "tests/realtime/fake_scene.h"
+#include "tests/support/locked_memory.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -106,4 +111,30 @@ TEST_CASE("The threads of a run leave the program's signals to the thread that s
     CHECK(frames == 0);
     CHECK(writer > 0);
     CHECK(takesSignals());
+}
+
+TEST_CASE("A run keeps no memory locked after its end, also when its sink fails") {
+    for (const bool fails : {true, false}) {
+        CAPTURE(fails);
+        FakeRun fake(30, pressingPath(0.6));
+        std::optional<long> locked; // during the run
+        fake.sink.onTurn = [&](const TickRow& row) {
+            if (row.record.t > 0.3 && !locked) {
+                locked = lockedKiB(::getpid());
+                if (fails) {
+                    throw Error("disk full");
+                }
+            }
+        };
+        if (fails) {
+            CHECK_THROWS_WITH_AS(fake.go(), "disk full", Error);
+        } else {
+            fake.go();
+        }
+        REQUIRE(locked);
+        if (*locked == 0) {
+            MESSAGE("SKIPPED: no locked memory is permitted here");
+        }
+        CHECK(lockedKiB(::getpid()) == 0);
+    }
 }
