@@ -19,7 +19,7 @@
 
 namespace fathom::front {
 
-// Feeds submitted frames to the frame loop. Frame thread only, except `lost`.
+// Feeds submitted frames to the frame loop. Frame thread only, except observe() and `deviceLost`.
 class SubmittedFeed final : public FrameFeed {
 public:
     SubmittedFeed(v0::CameraPort::Impl& camera, ComputeState& compute, PortState& shared)
@@ -46,7 +46,7 @@ public:
         try {
             out.report = compute_.process(std::move(*frame));
         } catch (const DeviceFailed&) {
-            lost.store(true);
+            deviceLost.store(true);
             throw;
         }
         out.changed = !out.report.unchanged;
@@ -66,7 +66,7 @@ public:
     void renew(const std::atomic<bool>&) override {
         const std::lock_guard lock(showing_); // observe() reads a set that this frees
         compute_.renew();
-        lost.store(false);
+        deviceLost.store(false);
     }
 
     // Any thread: publishes the regions of the newest frame, and from now on those of each frame.
@@ -79,7 +79,7 @@ public:
         }
     }
 
-    std::atomic<bool> lost{false}; // the device is lost
+    std::atomic<bool> deviceLost{false}; // since a pass failed, until renew()
 
 private:
     // Under the lock.
@@ -264,7 +264,7 @@ void Engine::clearances(std::span<const Pose> baseTtool, Clearances& out) {
 }
 
 bool Engine::computeDeviceLost() const noexcept {
-    return impl_->feed.lost.load();
+    return impl_->feed.deviceLost.load();
 }
 
 std::string Engine::failure() const {
