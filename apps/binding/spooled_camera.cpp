@@ -90,10 +90,7 @@ std::optional<Frame> SpooledCamera::next() {
     if (next_ == count_) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error("camera: too many frames in flight");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description());
     const bool still = stored_.size() < count_;
     const StoredFrame& stored = stored_[still ? 0 : next_];
     Frame::Content content = stored.content;

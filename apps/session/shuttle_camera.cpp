@@ -31,10 +31,7 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
 }
 
 std::optional<Frame> ShuttleCamera::next() {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description_ + ": all frame buffers are in use");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description());
     const size_t ticks = std::max<size_t>(1, 2 * (images_.size() - 1));
     const size_t place = shown_ % ticks;
     const Image& image = images_[place < images_.size() ? place : ticks - place];

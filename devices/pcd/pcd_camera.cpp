@@ -231,7 +231,7 @@ std::optional<Frame> PcdCamera::next() {
         return std::nullopt;
     }
     done_ = true;
-    FrameSlot* slot = slots_->acquire();
+    FrameSlot* slot = &slots_->acquireFor(description());
     const std::span<uint16_t> depth = slot->depth();
     uint64_t beyond = 0;
     for (size_t i = 0; i < cloud_.points.size(); ++i) {

@@ -117,10 +117,7 @@ std::optional<Frame> SimulatedCamera::next() {
     if (nextFrame_ >= options_.frames) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_.acquire();
-    if (slot == nullptr) {
-        throw Error("simulated camera: every frame slot is still leased");
-    }
+    FrameSlot* slot = &slots_.acquireFor(description());
     const uint32_t frame = nextFrame_++;
     caster_.setView(sceneTcamera(frame), info_.depth);
     forRows(options_.height, options_.threads, [&](uint32_t row) { traceRow(row); });

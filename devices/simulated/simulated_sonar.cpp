@@ -103,10 +103,7 @@ std::optional<Frame> SimulatedSonar::next() {
     if (frame_ >= options_.frames) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_.acquire();
-    if (slot == nullptr) {
-        throw Error("simulated sonar: every frame slot is still leased");
-    }
+    FrameSlot* slot = &slots_.acquireFor(description());
     const bool noise = options_.noise;
     for (uint32_t i = 0; i < info_.depth.pixels(); ++i) {
         const Echo& echo = echoes_[i];
