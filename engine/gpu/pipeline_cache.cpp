@@ -2,18 +2,16 @@
 #include "engine/gpu/pipeline_cache.h"
 
 #include "engine/gpu/result.h"
+#include "engine/types/cache_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/read_file.h"
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <string>
-#include <unistd.h>
 
 namespace fathom::gpu {
 
@@ -31,21 +29,6 @@ struct Head {
     uint64_t sum = 0;
 };
 
-// FNV-1a, 64 bits: detects truncated or damaged files, not manipulation.
-uint64_t sumOf(std::span<const char> data) {
-    uint64_t sum = 0xcbf29ce484222325u;
-    for (const char c : data) {
-        sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    }
-    return sum;
-}
-
-// A temporary name in the same folder, unique to this process and call.
-fs::path freshBeside(const fs::path& file) {
-    static std::atomic<uint32_t> count{0};
-    return file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".new";
-}
-
 } // namespace
 
 std::vector<char> storedPipelines(const fs::path& file) {
@@ -57,7 +40,7 @@ std::vector<char> storedPipelines(const fs::path& file) {
     std::memcpy(&head, text->data(), sizeof head);
     const std::span<const char> data = std::span(*text).subspan(sizeof head);
     if (head.magic != kMagic || head.bytes != data.size() || data.size() > kMaxBytes ||
-        head.sum != sumOf(data)) {
+        head.sum != fnv1a({data.data(), data.size()})) {
         return {};
     }
     return {data.begin(), data.end()};
@@ -67,22 +50,10 @@ void storePipelines(const fs::path& file, std::span<const char> data) {
     if (data.size() > kMaxBytes) {
         throw Error(file.string() + ": " + std::to_string(data.size()) + " bytes are too many");
     }
-    const Head head{kMagic, data.size(), sumOf(data)};
-    const fs::path fresh = freshBeside(file);
-    std::error_code failed;
-    fs::create_directories(file.parent_path(), failed);
-    std::ofstream out(fresh, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(&head), sizeof head);
-    out.write(data.data(), static_cast<std::streamsize>(data.size()));
-    out.close(); // writes the remaining bytes; may fail on a full disk
-    if (out) {
-        fs::rename(fresh, file, failed);
-    }
-    if (!out || failed) {
-        const std::string why = out ? failed.message() : "cannot be written whole";
-        fs::remove(fresh, failed);
-        throw Error(file.string() + ": " + why);
-    }
+    const Head head{kMagic, data.size(), fnv1a({data.data(), data.size()})};
+    std::string bytes(sizeof head, '\0');
+    std::memcpy(bytes.data(), &head, sizeof head);
+    storeCacheFile(file, bytes.append(data.data(), data.size()));
 }
 
 PipelineCache::PipelineCache(VkDevice device, fs::path file)

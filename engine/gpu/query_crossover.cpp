@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/gpu/query_crossover.h"
 
+#include "engine/types/cache_file.h"
 #include "engine/types/cache_folder.h"
 
 #include <exception>
@@ -37,16 +38,7 @@ bool storeQueryCrossover(VkPhysicalDevice device, uint32_t leaves) noexcept {
         if (target.empty()) {
             return false;
         }
-        std::filesystem::create_directories(target.parent_path());
-        const std::filesystem::path fresh = target.string() + "." + std::to_string(leaves) + ".new";
-        {
-            std::ofstream out(fresh);
-            out << leaves << "\n";
-            if (!out.flush()) {
-                return false;
-            }
-        }
-        std::filesystem::rename(fresh, target);
+        storeCacheFile(target, std::to_string(leaves) + "\n");
         return true;
     } catch (const std::exception&) {
         return false;

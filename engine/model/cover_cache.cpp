@@ -2,17 +2,17 @@
 #include "engine/model/cover_cache.h"
 
 #include "engine/model/mesh_file.h"
+#include "engine/types/cache_file.h"
 #include "engine/types/cache_folder.h"
+#include "engine/types/error.h"
 #include "engine/types/printed.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <fstream>
+#include <cstdio>
 #include <sstream>
 #include <string_view>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 
 namespace fathom {
@@ -21,15 +21,6 @@ namespace {
 
 constexpr const char* kHeader = "fathom cover 5"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
-
-// Fowler-Noll-Vo, 64 bits; two of them with different starts make a key.
-uint64_t hashOf(std::string_view bytes, uint64_t start) {
-    uint64_t hash = start;
-    for (const char c : bytes) {
-        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    }
-    return hash;
-}
 
 std::string hex(uint64_t value) {
     return printed("%016llx", static_cast<unsigned long long>(value));
@@ -43,14 +34,14 @@ std::string textOf(const ShapeSpheres& made) {
     for (const Sphere& s : made.spheres) {
         text += printed("%.17g %.17g %.17g %.17g\n", s.centre.x, s.centre.y, s.centre.z, s.radius);
     }
-    return text + hex(hashOf(text, 0)) + "\n";
+    return text + hex(fnv1a(text, 0)) + "\n";
 }
 
 // Nothing when the text is not as textOf() writes it.
 std::optional<ShapeSpheres> madeOf(const std::string& text) {
     const size_t end = text.rfind('\n', text.size() < 2 ? 0 : text.size() - 2) + 1;
     if (!text.starts_with(std::string(kHeader) + "\n") || end == 0 ||
-        text.substr(end) != hex(hashOf(std::string_view(text).substr(0, end), 0)) + "\n") {
+        text.substr(end) != hex(fnv1a(std::string_view(text).substr(0, end), 0)) + "\n") {
         return std::nullopt;
     }
     ShapeSpheres made;
@@ -93,7 +84,7 @@ std::string CoverCache::keyOf(const std::filesystem::path& mesh, const std::stri
         return "";
     }
     const std::string kind = mesh.extension().string() + " " + options;
-    return hex(hashOf(*bytes, hashOf(kind, 0xcbf29ce484222325u))) + hex(hashOf(*bytes, hashOf(kind, 1)));
+    return hex(fnv1a(*bytes, fnv1a(kind))) + hex(fnv1a(*bytes, fnv1a(kind, 1)));
 }
 
 std::optional<ShapeSpheres> CoverCache::find(const std::string& key) const {
@@ -106,21 +97,13 @@ bool CoverCache::store(const std::string& key, const ShapeSpheres& made) const {
     if (key.empty() || made.spheres.empty() || text.size() > kLargest) {
         return false;
     }
-    std::error_code failed;
-    std::filesystem::create_directories(folder_, failed);
-    const std::filesystem::path fresh = folder_ / (key + "." + std::to_string(::getpid()) + ".new");
-    {
-        std::ofstream out(fresh, std::ios::binary);
-        out << text;
-        if (!out.flush()) {
-            std::filesystem::remove(fresh, failed);
-            return false;
-        }
+    try {
+        storeCacheFile(folder_ / key, text);
+    } catch (const Error&) {
+        return false;
     }
-    std::filesystem::rename(fresh, folder_ / key, failed);
-    const bool stored = !failed;
     trim();
-    return stored;
+    return true;
 }
 
 void CoverCache::trim() const {
