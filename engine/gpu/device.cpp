@@ -26,7 +26,7 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
     if (drawing != Drawing::None) {
         chooseDrawQueue();
     }
-    queryIndex_ = queuesOf(family_) > drawIndex_ + 1 ? drawIndex_ + 1 : 0;
+    queryIndex_ = queueFamilies(physical_)[family_].queueCount > drawIndex_ + 1 ? drawIndex_ + 1 : 0;
     createLogicalDevice(instance.validation().gpuAssisted, drawing);
     vkGetDeviceQueue(handle_, family_, 0, &queue_);
     vkGetDeviceQueue(handle_, family_, queryIndex_, &queryQueue_);
@@ -37,23 +37,12 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
     log::info("device {} ({})", facts_.name, facts_.driver);
 }
 
-uint32_t Device::queuesOf(uint32_t family) const {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-    return families[family].queueCount;
-}
-
 // Prefers a separate graphics queue: in the compute family, else in the first graphics family.
 void Device::chooseDrawQueue() {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(physical_);
     const auto draws = [&](uint32_t f) { return (families[f].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0; };
     drawFamily_ = family_;
-    for (uint32_t f = 0; f < count && !draws(drawFamily_); ++f) {
+    for (uint32_t f = 0; f < families.size() && !draws(drawFamily_); ++f) {
         drawFamily_ = draws(f) ? f : drawFamily_;
     }
     if (!draws(drawFamily_)) {

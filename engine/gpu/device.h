@@ -97,7 +97,6 @@ private:
     static void submitTo(VkQueue queue, VkCommandBuffer commands, const TimelinePoint& wait,
                          const TimelinePoint& signal);
     void chooseDrawQueue();
-    uint32_t queuesOf(uint32_t family) const;
 
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice handle_ = VK_NULL_HANDLE;

@@ -64,14 +64,6 @@ std::string describeAll(const std::vector<VkPhysicalDevice>& devices) {
     return text.empty() ? "there is no Vulkan device" : text;
 }
 
-std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-    return families;
-}
-
 } // namespace
 
 bool hasExtension(VkPhysicalDevice device, const char* name) {
@@ -123,6 +115,14 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.timestampBits = family ? queueFamilies(device)[*family].timestampValidBits : 0;
     facts.timestampPeriodNs = facts.timestampBits > 0 ? static_cast<double>(limits.timestampPeriod) : 0.0;
     return facts;
+}
+
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families;
 }
 
 std::optional<uint32_t> computeFamily(VkPhysicalDevice device) {

@@ -7,11 +7,15 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace fathom::gpu {
 
 // Facts that the driver reports. hostProcessors: CPUs that the calling thread may use.
 DeviceFacts readFacts(VkPhysicalDevice device);
+
+// The queue families, in the driver's order.
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device);
 
 // The queue family to use: compute, preferably without graphics. Empty when there is none.
 std::optional<uint32_t> computeFamily(VkPhysicalDevice device);
