@@ -11,7 +11,7 @@
 
 namespace fathom::gpu {
 
-// Facts that the driver reports. hostProcessors: CPUs that the calling thread may use.
+// Facts that the driver reports, and the number of CPUs that the calling thread may use.
 DeviceFacts readFacts(VkPhysicalDevice device);
 
 // The queue families, in the driver's order.
