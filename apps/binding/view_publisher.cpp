@@ -79,7 +79,7 @@ ViewSocket::List<T> inParts(const T& head, uint32_t most) {
 void ViewPublisher::step(const TickRow& row) {
     if (ticks_++ % kPollEvery == 0) {
         endpoint_.poll();
-        offerNews();
+        offerUpdates();
     }
     if (!endpoint_.watched()) {
         return;
@@ -104,7 +104,7 @@ void ViewPublisher::step(const TickRow& row) {
 
 void ViewPublisher::frame(const HostFixtures& set) {
     set_ = &set;
-    offerNews();
+    offerUpdates();
 }
 
 void ViewPublisher::forget() noexcept {
@@ -124,7 +124,7 @@ bool ViewPublisher::shapesDiffer() {
     return shapesChanged_;
 }
 
-void ViewPublisher::offerNews() {
+void ViewPublisher::offerUpdates() {
     if (!endpoint_.watched()) {
         return;
     }

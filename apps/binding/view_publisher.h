@@ -22,7 +22,7 @@ public:
     void forget() noexcept override;
 
 private:
-    void offerNews();
+    void offerUpdates();
     void offerRegions();
     void offerFixtures();
     bool shapesDiffer(); // true when the shapes differ from those offered
