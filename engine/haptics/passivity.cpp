@@ -44,12 +44,6 @@ dvec3 damped(Damping d, const dvec3& motion, const dvec3& part, const Push& push
     return -(d.anyMotion * motion + d.alongReaction * part);
 }
 
-// The part of a motion along a direction; zero without one.
-dvec3 along(const dvec3& motion, const dvec3& direction) {
-    const double square = glm::dot(direction, direction);
-    return square > 0.0 ? glm::dot(motion, direction) / square * direction : dvec3(0.0);
-}
-
 } // namespace
 
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
@@ -213,7 +207,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
                                  kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
     const Power p = power(tick, owed, std::sqrt(speed));
     const Wrench& acting = newest();
-    const dvec3 vn = along(v, acting.force), wn = along(w, acting.torque);
+    const dvec3 vn = projectedOn(v, acting.force), wn = projectedOn(w, acting.torque);
     const double pushed = glm::dot(vn, vn) + kk * glm::dot(wn, wn);
     Damping d;
     d.anyMotion = std::min(p.anyMotion / speed, most);
