@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/capture_stream.h"
 
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <linux/videodev2.h>
 #include <sys/mman.h>
 #include <utility>
@@ -22,12 +22,6 @@ v4l2_buffer bufferAt(uint32_t index) {
     buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     buffer.memory = V4L2_MEMORY_MMAP;
     return buffer;
-}
-
-double monotonicNow() {
-    timespec now{};
-    ::clock_gettime(CLOCK_MONOTONIC, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 } // namespace
@@ -177,7 +171,7 @@ std::optional<CapturedBuffer> CaptureStream::take() {
 }
 
 double CaptureStream::stampOf(long seconds, long micros, uint32_t flags) {
-    const double now = monotonicNow();
+    const double now = monotonicSeconds();
     if ((flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
         return now;
     }

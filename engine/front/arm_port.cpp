@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/arm_port.h"
 
+#include "engine/types/clock.h"
+
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace fathom::v0 {
@@ -45,10 +48,9 @@ ReportStatus ArmPort::Impl::report(const MeasuredArm& arm) noexcept {
 ArmSetpoint ArmPort::Impl::setpoint() noexcept {
     shared->arm.setpoint.refresh();
     const fathom::ArmSetpoint& newest = shared->arm.setpoint.front();
-    const auto since = std::chrono::nanoseconds(newest.at.time_since_epoch());
     ArmSetpoint out;
     out.posture = front::external(newest.posture);
-    out.stamp = std::max<Nanoseconds>(since.count(), 0);
+    out.stamp = std::max<Nanoseconds>(nanosecondsOf(newest.at), 0);
     out.hold = newest.hold || now() - out.stamp > kSetpointStale;
     out.forcesOff = newest.off;
     return out;

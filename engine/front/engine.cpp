@@ -9,6 +9,7 @@
 #include "engine/run/cycle_answers.h"
 #include "engine/run/frame_loop.h"
 #include "engine/types/blocked_signals.h"
+#include "engine/types/clock.h"
 #include "engine/types/frame.h"
 #include "engine/types/log.h"
 
@@ -259,7 +260,7 @@ void Engine::clearances(std::span<const Pose> baseTtool, Clearances& out) {
     front::translated([&] {
         const front::FloatMode mode;
         const double t = impl_->compute.clearances(baseTtool, out);
-        out.stamp = out.frame < 0 ? 0 : front::stampOf(impl_->shared->clock.timeAt(t));
+        out.stamp = out.frame < 0 ? 0 : nanosecondsOf(impl_->shared->clock.timeAt(t));
     });
 }
 

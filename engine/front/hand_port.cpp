@@ -4,6 +4,7 @@
 #include "engine/front/float_mode.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace fathom::v0 {
 

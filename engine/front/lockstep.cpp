@@ -8,6 +8,7 @@
 #include "engine/run/scene_update.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 namespace fathom::v0 {

@@ -2,13 +2,13 @@
 #include "engine/front/public.h"
 
 #include "engine/scene/camera_limits.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/version.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -19,8 +19,7 @@ BadInput::~BadInput() = default;
 ComputeDeviceLost::~ComputeDeviceLost() = default;
 
 Nanoseconds now() noexcept {
-    const auto time = std::chrono::steady_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+    return nanosecondsOf(Clock::now());
 }
 
 const char* version() noexcept {

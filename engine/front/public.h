@@ -11,8 +11,6 @@
 #include "engine/types/haptic_device.h"
 #include <fathom/fathom.h>
 
-#include <chrono>
-
 namespace fathom::front {
 
 inline Pose internal(const v0::Pose& p) noexcept {
@@ -39,10 +37,6 @@ inline HandSample internal(const v0::Hand& hand) noexcept {
 
 inline v0::StepWarning when(bool so, v0::StepWarning warning) noexcept {
     return so ? warning : v0::StepWarning::None;
-}
-
-inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexcept {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
 inline constexpr v0::Nanoseconds kMaxAhead = 5'000'000;  // [ns] by which a stamp may be ahead of now

@@ -15,7 +15,7 @@ void PostureTrack::add(Time time, const ArmPosture& posture) noexcept {
     const uint64_t stamp = slot.stamp.load(std::memory_order_relaxed);
     slot.stamp.store(stamp + 1, std::memory_order_relaxed);
     // Release stores after an odd stamp: a reader that sees one of the new words also sees the odd stamp.
-    slot.time.store(nanoseconds(time), std::memory_order_release);
+    slot.time.store(nanosecondsOf(time), std::memory_order_release);
     for (size_t k = 0; k < kMaxJoints; ++k) {
         slot.words[k].store(std::bit_cast<uint64_t>(posture.q[k]), std::memory_order_release);
     }
@@ -35,7 +35,7 @@ bool PostureTrack::read(const Slot& slot, int64_t& time, ArmPosture& out) const 
 }
 
 std::optional<ArmPosture> PostureTrack::nearest(Time wanted) const noexcept {
-    const int64_t goal = nanoseconds(wanted);
+    const int64_t goal = nanosecondsOf(wanted);
     const uint64_t count = written_.load(std::memory_order_acquire);
     std::optional<ArmPosture> best;
     int64_t bestAway = 0;

@@ -37,9 +37,6 @@ private:
         std::atomic<int64_t> time{0};   // [ns]
         std::array<std::atomic<uint64_t>, kWords> words{};
     };
-    static int64_t nanoseconds(Time time) noexcept {
-        return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
-    }
     bool read(const Slot& slot, int64_t& time, ArmPosture& out) const noexcept;
 
     std::array<Slot, kKept> slots_;

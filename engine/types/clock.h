@@ -16,6 +16,10 @@ inline double secondsOf(Clock::time_point time) noexcept {
 inline double monotonicSeconds() noexcept {
     return secondsOf(Clock::now());
 }
+// [ns] since then.
+inline int64_t nanosecondsOf(Clock::time_point time) noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
 
 // [ns] of UTC, for messages to other programs.
 inline uint64_t utcNanoseconds() noexcept {
