@@ -4,6 +4,7 @@
 #include "apps/operate/arming.h"
 #include "apps/operate/open_card.h"
 #include "apps/operate/view_click.h"
+#include "apps/replay/percentiles.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -13,15 +14,6 @@
 namespace fathom::operate {
 
 namespace {
-
-float percentile(std::vector<float> values, double share) {
-    if (values.empty()) {
-        return 0.0f;
-    }
-    const auto at = values.begin() + static_cast<int>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
 
 std::string title(const OperateOptions& options) {
     return "Fathom, " + options.scene.stem().string();
@@ -270,7 +262,8 @@ void OperatorRun::reopen() {
 }
 
 void OperatorRun::report() const {
-    const std::vector<float>& us = display_.view.stepMicros();
+    const std::vector<float>& micros = display_.view.stepMicros();
+    const Percentiles us = percentilesOf(micros);
     const double time = std::max(1e-3, display_.elapsed());
     std::printf(
         "window       %.1f frames per second, %llu skipped for passes on the shared queue, %.1f ms of CPU "
@@ -282,8 +275,7 @@ void OperatorRun::report() const {
     }
     std::printf("step         p50 %.2f p99 %.2f max %.2f us, %zu ticks, %llu ended over one period late, "
                 "%llu periods without one\n",
-                static_cast<double>(percentile(us, 0.5)), static_cast<double>(percentile(us, 0.99)),
-                static_cast<double>(percentile(us, 1.0)), us.size(),
+                us.p50.value_or(0.0), us.p99.value_or(0.0), us.max.value_or(0.0), micros.size(),
                 static_cast<unsigned long long>(display_.view.lateTicks()),
                 static_cast<unsigned long long>(live_.engine().periodsMissed()));
 }
