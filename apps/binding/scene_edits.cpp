@@ -91,7 +91,7 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
             refuse(file, lines[i], "picture", std::to_string(edit.firstFrame),
                    i == 1 ? "0: the scene at the start" : "no earlier than the previous row");
         }
-        if (i > 1 && cloud::classRows(edit.scene) != cloud::classRows(edits_.front().scene)) {
+        if (i > 1 && cloud::classFixtures(edit.scene) != cloud::classFixtures(edits_.front().scene)) {
             refuse(file, lines[i], "scene", edit.scene.file.filename().string(),
                    "the point classes in the same rows as in the first scene");
         }

@@ -130,12 +130,13 @@ std::string FrameBench::spheresDiffer() const {
 }
 
 std::string FrameBench::guidanceDiffers() const {
-    const std::vector<uint32_t> rows = cloud::classRows(scene_), bits = masks();
+    const std::vector<uint32_t> fixtures = cloud::classFixtures(scene_), bits = masks();
     const reference::PointImage all = points();
     const int width = static_cast<int>(camera_.depth.width), height = static_cast<int>(camera_.depth.height);
     for (const GuidancePose& here : set().host.guidance) {
         const FixtureClass& f = scene_.fixtures[here.fixture];
-        const auto c = static_cast<size_t>(std::find(rows.begin(), rows.end(), here.fixture) - rows.begin());
+        const auto c =
+            static_cast<size_t>(std::find(fixtures.begin(), fixtures.end(), here.fixture) - fixtures.begin());
         std::vector<uint32_t> own = bits;
         if (f.largestPart) {
             const auto part = reference::largestPart(width, height, bits, all, c, scene_.filter.edge);

@@ -14,10 +14,10 @@ namespace {
 
 // Class bits of all guidance classes.
 uint32_t guidanceBits(const Scene& scene) {
-    const std::vector<uint32_t> rows = cloud::classRows(scene);
+    const std::vector<uint32_t> fixtures = cloud::classFixtures(scene);
     uint32_t bits = 0;
-    for (size_t c = 0; c < rows.size(); ++c) {
-        bits |= scene.fixtures[rows[c]].role == Role::Guidance ? 1u << c : 0u;
+    for (size_t c = 0; c < fixtures.size(); ++c) {
+        bits |= scene.fixtures[fixtures[c]].role == Role::Guidance ? 1u << c : 0u;
     }
     return bits;
 }

@@ -125,11 +125,11 @@ void ReplayRecorder::frame(const FrameReport& report, double t, const HostFixtur
     uploadMs_.push_back(static_cast<float>(report.uploadMs));
     latencyMs_.push_back(static_cast<float>(report.latencyMs));
     gpuMs_.push_back(static_cast<float>(std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0)));
-    const std::vector<uint32_t> rows = cloud::classRows(scene_);
-    for (size_t c = 0; c < rows.size() && c < report.counts.classPixels.size(); ++c) {
-        sums_[rows[c]].points += report.counts.classPixels[c];
-        sums_[rows[c]].spheres += report.counts.classSpheres[c];
-        sums_[rows[c]].patches += report.counts.classPatches[c];
+    const std::vector<uint32_t> fixtures = cloud::classFixtures(scene_);
+    for (size_t c = 0; c < fixtures.size() && c < report.counts.classPixels.size(); ++c) {
+        sums_[fixtures[c]].points += report.counts.classPixels[c];
+        sums_[fixtures[c]].spheres += report.counts.classSpheres[c];
+        sums_[fixtures[c]].patches += report.counts.classPatches[c];
     }
     addGuidance(set);
     if (saveFixtures_ && !report.unchanged) {

@@ -101,8 +101,8 @@ RunWatch::RunWatch(const Scene& scene, const RunSource& source)
     , streams_(source.streams)
     , nearZ_(scene.nearZ)
     , farZ_(scene.farZ) {
-    for (const uint32_t row : cloud::classRows(scene)) {
-        classes_.push_back({row, std::nullopt, false, ""});
+    for (const uint32_t fixture : cloud::classFixtures(scene)) {
+        classes_.push_back({fixture, std::nullopt, false, ""});
     }
     for (const std::string& dead : deadGates(scene, source.camera)) {
         warnings_.add(dead, dead);

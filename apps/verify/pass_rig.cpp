@@ -124,14 +124,14 @@ std::vector<reference::CellThinning> PassRig::thinning() const {
 
 std::vector<reference::RegionSphere> PassRig::spheres(bool held) const {
     const RegionSpheres& all = host().spheres;
-    const std::vector<uint32_t> rows = cloud::classRows(scene_);
+    const std::vector<uint32_t> fixtures = cloud::classFixtures(scene_);
     const auto pixels = static_cast<uint32_t>(camera_.depth.pixels());
     std::vector<reference::RegionSphere> out(pixels);
     for (size_t i = 0; i < all.size(); ++i) {
         if ((all.source[i] >= pixels) == held) {
-            const auto row = std::ranges::find(rows, uint32_t{all.fixture[i]});
+            const auto row = std::ranges::find(fixtures, uint32_t{all.fixture[i]});
             out[all.source[i] % pixels] = {dvec3(all.x[i], all.y[i], all.z[i]) + origin(), all.radius[i],
-                                           static_cast<int>(row - rows.begin())};
+                                           static_cast<int>(row - fixtures.begin())};
         }
     }
     return out;

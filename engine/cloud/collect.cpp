@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/collect.h"
 
-#include "engine/cloud/collect_spheres.h"
 #include "engine/cloud/frame_params.h"
 #include "engine/cloud/guidance_points.h"
 #include "engine/cloud/guidance_pose.h"
@@ -85,11 +84,11 @@ Moments classMoments(const FixtureSet& set, uint32_t k, const PatchLayout& layou
     return mergeAll(std::move(parts));
 }
 
-void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_t>& rows,
+void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_t>& fixtures,
                   const PatchLayout& layout) {
     uint32_t k = 0;
-    for (uint32_t c = 0; c < rows.size(); ++c) {
-        const FixtureClass& fixture = scene.fixtures[rows[c]];
+    for (uint32_t c = 0; c < fixtures.size(); ++c) {
+        const FixtureClass& fixture = scene.fixtures[fixtures[c]];
         if (fixture.role != Role::Guidance) {
             continue;
         }
@@ -98,7 +97,7 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
         Moments m = chosen ? chosenMoments(set, c, fixture, scene.filter.edge, layout, untrimmed)
                            : classMoments(set, k, layout);
         m.mean += set.host.origin;
-        GuidancePose pose = guidancePose(m, fixture, rows[c], set.host.baseTcamera.position);
+        GuidancePose pose = guidancePose(m, fixture, fixtures[c], set.host.baseTcamera.position);
         pose.present = pose.present || (pose.count > 0 && untrimmed >= fixture.minCount);
         set.host.guidance.push_back(pose);
         ++k;
@@ -138,18 +137,19 @@ FrameCounts countsOf(const shared::FrameCounters& c, size_t classes) {
 
 // Runs the work for forbidden classes and guidance on all workers. Guidance comes first because it may take
 // longest.
-void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
-                    const Plan& plan, const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                    ThreadPool& workers, FrameCounts& counts) {
+void collectSpheres(FixtureSet& set, const Scene& scene, const SphereSource& from,
+                    const std::vector<uint32_t>& fixtures, ThreadPool& workers, FrameCounts& counts) {
+    const PatchLayout& layout = from.layout;
     set.host.forbiddenBits.assign((set.host.camera.depth.pixels() + 31) / 32, 0);
-    SphereCollector spheres(set, work, seen, plan, rows, layout, workers);
-    const uint32_t guidance = plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2, runs = (pairs + 3) / 4;
+    SphereCollector spheres(set, from, fixtures, workers);
+    const uint32_t guidance = from.plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2,
+                   runs = (pairs + 3) / 4;
     std::atomic<uint32_t> forbidden{0};
     std::exception_ptr failed; // from the one part that allocates: a job must not throw
     workers.run(guidance + spheres.parts() + runs, [&](uint32_t part) {
         if (part < guidance) {
             try {
-                takeGuidance(set, scene, rows, layout);
+                takeGuidance(set, scene, fixtures, layout);
             } catch (...) {
                 failed = std::current_exception();
             }
@@ -170,27 +170,26 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     counts.patches = all.patches;
     counts.nodes += spheres.nodesAbove();
     counts.forbidden = forbidden;
-    std::copy_n(all.ofClass.begin(), rows.size(), counts.classSpheres.begin());
-    std::copy_n(all.patchesOfClass.begin(), rows.size(), counts.classPatches.begin());
+    std::copy_n(all.ofClass.begin(), fixtures.size(), counts.classSpheres.begin());
+    std::copy_n(all.patchesOfClass.begin(), fixtures.size(), counts.classPatches.begin());
 }
 
 } // namespace
 
-FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
-                    const Plan& plan, const PatchLayout& layout, ThreadPool& workers) {
-    const std::vector<uint32_t> rows = classRows(scene);
+FrameCounts collect(FixtureSet& set, const Scene& scene, const SphereSource& from, ThreadPool& workers) {
+    const std::vector<uint32_t> fixtures = classFixtures(scene);
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
-    if (!plan.spheres) {
+    if (!from.plan.spheres) {
         set.host.spheres.resize(0);
     }
     const shared::FrameCounters& c = set.device.counters.as<shared::FrameCounters>()[0];
-    FrameCounts counts = countsOf(c, rows.size());
+    FrameCounts counts = countsOf(c, fixtures.size());
     counts.nodes = c.subs;
-    if (plan.spheres) {
-        collectSpheres(set, work, seen, scene, plan, rows, layout, workers, counts);
+    if (from.plan.spheres) {
+        collectSpheres(set, scene, from, fixtures, workers, counts);
     } else {
-        takeGuidance(set, scene, rows, layout);
+        takeGuidance(set, scene, fixtures, from.layout);
     }
     return counts;
 }

@@ -3,8 +3,8 @@
 // order.
 #pragma once
 
+#include "engine/cloud/collect_spheres.h"
 #include "engine/cloud/fixture_set.h"
-#include "engine/cloud/seen_points.h"
 #include "engine/scene/scene.h"
 
 namespace fathom::cloud {
@@ -25,10 +25,8 @@ uint32_t copyDepth(HostFixtures& host, std::span<const uint16_t> depth, const Sc
                    ThreadPool* workers);
 
 // Fills set.host.spheres, forbiddenBits and guidance from the device side, for a plan with passes. The caller
-// has set camera, pose, origin and frame, and counts the valid pixels. work: source of radii and points when
-// the plan does not pack. seen: points of this frame when the plan packs depths, else null. workers share the
-// work. Allocates little, unless a frame is larger than any before.
-FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
-                    const Plan& plan, const PatchLayout& layout, ThreadPool& workers);
+// has set camera, pose, origin and frame, and counts the valid pixels. workers share the work. Allocates
+// little, unless a frame is larger than any before.
+FrameCounts collect(FixtureSet& set, const Scene& scene, const SphereSource& from, ThreadPool& workers);
 
 } // namespace fathom::cloud

@@ -46,23 +46,19 @@ void add(SphereCounts& to, const SphereCounts& more) {
 
 } // namespace
 
-SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen,
-                                 const Plan& plan, const std::vector<uint32_t>& rows,
-                                 const PatchLayout& layout, ThreadPool& workers)
+SphereCollector::SphereCollector(FixtureSet& set, const SphereSource& from,
+                                 const std::vector<uint32_t>& fixtures, ThreadPool& workers)
     : set_(set)
-    , work_(work)
-    , seen_(seen)
-    , plan_(plan)
-    , rows_(rows)
-    , layout_(layout)
-    , begins_(layout.patches() + 1) {
+    , from_(from)
+    , fixtures_(fixtures)
+    , begins_(from.layout.patches() + 1) {
     const uint32_t count = placePatches(workers);
     set.host.spheres.resize(count);
     counts_.resize(partsOf(&workers, count, kMinPart));
 }
 
 uint32_t SphereCollector::placePatches(ThreadPool& workers) {
-    inParts(&workers, layout_.patches(), kMinPatches, [&](size_t begin, size_t end) {
+    inParts(&workers, from_.layout.patches(), kMinPatches, [&](size_t begin, size_t end) {
         for (size_t patch = begin; patch < end; ++patch) {
             begins_[patch] = spheresOf(static_cast<uint32_t>(patch));
         }
@@ -79,11 +75,11 @@ uint32_t SphereCollector::spheresOf(uint32_t patch) const noexcept {
     if (set_.device.listed.as<uint32_t>()[patch] == 0) {
         return 0;
     }
-    if (plan_.pack) {
+    if (from_.plan.pack) {
         return set_.device.runs.as<glm::uvec2>()[patch].y & 0xffff;
     }
     uint32_t n = 0;
-    for (const gpu::Buffer* radii : {&work_.radii, &work_.heldRadii}) {
+    for (const gpu::Buffer* radii : {&from_.work.radii, &from_.work.heldRadii}) {
         const float* const r = *radii ? &radii->as<float>()[size_t{patch} * 256] : nullptr;
         for (uint32_t slot = 0; r != nullptr && slot < 256; slot += 32) {
             n += static_cast<uint32_t>(std::popcount(bitsOfSpheres(r + slot)));
@@ -98,8 +94,8 @@ void SphereCollector::take(uint32_t part) noexcept {
         const uint64_t sphere = begins_.back() * share / parts();
         return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
     };
-    SphereColumns columns(set_, rows_, layout_, seen_, plan_.hold);
-    if (plan_.pack) {
+    SphereColumns columns(set_, fixtures_, from_.layout, from_.seen, from_.plan.hold);
+    if (from_.plan.pack) {
         takePacked(patchAt(part), patchAt(part + 1), columns);
     } else {
         takeSlots(patchAt(part), patchAt(part + 1), columns);
@@ -120,16 +116,16 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
     const auto packed = set_.device.packed.as<uint32_t>();
     const auto places = set_.device.places.as<uint32_t>();
     const auto runs = set_.device.runs.as<glm::uvec2>();
-    const uint8_t* const classes = work_.classes ? work_.classes.as<uint8_t>().data() : nullptr;
+    const uint8_t* const classes = from_.work.classes ? from_.work.classes.as<uint8_t>().data() : nullptr;
     const auto bring = [&](uint32_t patch) {
         const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
         if (n > 0) {
-            const size_t words = plan_.packsDepths() ? n : 4 * n; // ignores the few held ones
+            const size_t words = from_.plan.packsDepths() ? n : 4 * n; // ignores the few held ones
             bringNear(packed.subspan(runs[patch].x, words));
             bringNear(places.subspan(size_t{patch} * 16, 8));
         }
     };
-    SphereRun run(plan_.packsDepths());
+    SphereRun run(from_.plan.packsDepths());
     bring(first);
     for (uint32_t patch = first; patch < end; ++patch) {
         bring(patch + 1);
@@ -145,16 +141,17 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
 
 // Takes patches [first, end) when the plan does not pack.
 void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
-    const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
-                                                           work_.kept.as<glm::vec4>()};
-    const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
-    const auto classes = work_.classes.as<uint8_t>();
+    const std::array<std::span<const glm::vec4>, 2> points{from_.work.points.as<glm::vec4>(),
+                                                           from_.work.kept.as<glm::vec4>()};
+    const std::array<std::span<const float>, 2> radii{from_.work.radii.as<float>(),
+                                                      from_.work.heldRadii.as<float>()};
+    const auto classes = from_.work.classes.as<uint8_t>();
     std::array<glm::vec4, 512> spheres; // of one patch
     std::array<uint32_t, 16> places;
     for (uint32_t patch = first; patch < end; ++patch) {
         PatchSpheres s;
         uint32_t n = 0;
-        const uint32_t layers = begins_[patch + 1] == begins_[patch] ? 0 : (plan_.hold ? 2 : 1);
+        const uint32_t layers = begins_[patch + 1] == begins_[patch] ? 0 : (from_.plan.hold ? 2 : 1);
         for (uint32_t word = 0; word < 8 * layers; ++word) {
             const uint32_t layer = word / 8;
             const size_t at = size_t{patch} * 256 + word % 8 * 32;
@@ -177,14 +174,14 @@ void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& col
 }
 
 uint32_t SphereCollector::nodesAbove() const {
-    std::vector<uint8_t> used(layout_.patches()), above;
+    std::vector<uint8_t> used(from_.layout.patches()), above;
     uint32_t nodes = 0;
-    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
+    for (uint32_t patch = 0; patch < from_.layout.patches(); ++patch) {
         used[patch] = begins_[patch + 1] > begins_[patch];
         nodes += used[patch];
     }
-    for (size_t l = 2; l < layout_.levels.size(); ++l) {
-        const PatchLayout::Level &below = layout_.levels[l - 1], &here = layout_.levels[l];
+    for (size_t l = 2; l < from_.layout.levels.size(); ++l) {
+        const PatchLayout::Level &below = from_.layout.levels[l - 1], &here = from_.layout.levels[l];
         above.assign(size_t{here.across} * here.down, 0);
         for (uint32_t v = 0, i = 0; v < below.down; ++v) {
             for (uint32_t u = 0; u < below.across; ++u, ++i) {

@@ -11,13 +11,20 @@ class ThreadPool;
 
 namespace fathom::cloud {
 
-// Fills set.host.spheres in parts that several threads may share. rows: row of Scene::fixtures for each point
-// class. Only the constructor allocates.
+// From what the spheres of a frame are collected.
+struct SphereSource {
+    const WorkBuffers& work; // radii and points, when the plan does not pack
+    const SeenPoints* seen;  // points of this frame when the plan packs depths, else null
+    const Plan& plan;
+    const PatchLayout& layout;
+};
+
+// Fills set.host.spheres in parts that several threads may share. fixtures: classFixtures() of the scene.
+// Only the constructor allocates.
 class SphereCollector {
 public:
-    // seen: points of this frame; null if the plan does not pack depths.
-    SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Plan& plan,
-                    const std::vector<uint32_t>& rows, const PatchLayout& layout, ThreadPool& workers);
+    SphereCollector(FixtureSet& set, const SphereSource& from, const std::vector<uint32_t>& fixtures,
+                    ThreadPool& workers);
 
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
     void take(uint32_t part) noexcept; // call once per part, in any order, on any thread
@@ -33,11 +40,8 @@ private:
     void takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept;
 
     FixtureSet& set_;
-    const WorkBuffers& work_;
-    const SeenPoints* seen_;
-    const Plan& plan_;
-    const std::vector<uint32_t>& rows_;
-    const PatchLayout& layout_;
+    const SphereSource from_;
+    const std::vector<uint32_t>& fixtures_;
     std::vector<uint32_t> begins_;     // index of each patch's first sphere, then the end
     std::vector<SphereCounts> counts_; // one per part
 };

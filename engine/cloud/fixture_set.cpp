@@ -26,18 +26,19 @@ float largestOf(const RegionSpheres& s) {
 
 void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& classes,
                                 const gpu::Device::TimelinePoint& written) {
-    rows.clear();
-    for (const uint32_t row : classRows(scene)) {
-        rows.push_back(scene.fixtures[row].frozen ? kFrozen : static_cast<int>(row));
+    fixtureOfClass.clear();
+    for (const uint32_t fixture : classFixtures(scene)) {
+        fixtureOfClass.push_back(scene.fixtures[fixture].frozen ? kFrozen : static_cast<int>(fixture));
     }
     frozen = classes.spheres();
     frozenVersion = classes.version();
     completed = written;
     float largest = frozen ? largestOf(*frozen) : 0.0f;
     const auto& counters = device.counters.as<shared::FrameCounters>()[0];
-    for (size_t c = 0; c < rows.size(); ++c) {
-        largest =
-            rows[c] == kFrozen ? largest : std::max(largest, std::bit_cast<float>(counters.largestRadius[c]));
+    for (size_t c = 0; c < fixtureOfClass.size(); ++c) {
+        largest = fixtureOfClass[c] == kFrozen
+                      ? largest
+                      : std::max(largest, std::bit_cast<float>(counters.largestRadius[c]));
     }
     largestRadius = double{largest};
 }
@@ -56,7 +57,7 @@ FixtureSet::Place FixtureSet::placeOf(const PatchLayout& layout, uint32_t slot, 
     const uint32_t patch = at / shared::kBlockSlots;
     const uint32_t u = patch % layout.across * 16 + (at >> 2 & 12) + (at & 3);
     const uint32_t v = patch / layout.across * 16 + (at >> 4 & 12) + (at >> 2 & 3);
-    return {v * width + u + layer * pixels, rows[pointClass]};
+    return {v * width + u + layer * pixels, fixtureOfClass[pointClass]};
 }
 
 } // namespace fathom::cloud

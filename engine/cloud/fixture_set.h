@@ -18,7 +18,7 @@ struct FixtureSet {
     HostGrid grid; // over host.spheres
     SetBuffers device;
     // For the GPU query.
-    std::vector<int> rows; // per point class: its row of Scene::fixtures; kFrozen = see below
+    std::vector<int> fixtureOfClass;             // index into Scene::fixtures; kFrozen = see below
     std::shared_ptr<const RegionSpheres> frozen; // spheres of frozen classes, about host.origin; null = none
     uint64_t frozenVersion = 0;                  // changes with them; 0 = none so far
     gpu::Device::TimelinePoint completed;        // the passes have written `device`
@@ -30,11 +30,11 @@ struct FixtureSet {
     void describeDevice(const Scene& scene, const FrozenClasses& classes,
                         const gpu::Device::TimelinePoint& written);
 
-    // The sphere that a search of the device found. slot: FoundSphere::slot. row: of Scene::fixtures; kFrozen
-    // = the sphere does not count.
+    // The sphere that a search of the device found. slot: FoundSphere::slot. fixture: index into
+    // Scene::fixtures; kFrozen = the sphere does not count.
     struct Place {
         uint32_t source;
-        int row;
+        int fixture;
     };
     Place placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const;
 

@@ -115,29 +115,29 @@ std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit
             static_cast<uint32_t>(std::clamp(hi, 0.0, 65535.0))};
 }
 
-std::vector<uint32_t> classRows(const Scene& scene) {
-    std::vector<uint32_t> rows;
-    for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
-        if (scene.fixtures[row].isPoints()) {
-            rows.push_back(row);
+std::vector<uint32_t> classFixtures(const Scene& scene) {
+    std::vector<uint32_t> fixtures;
+    for (uint32_t i = 0; i < scene.fixtures.size(); ++i) {
+        if (scene.fixtures[i].isPoints()) {
+            fixtures.push_back(i);
         }
     }
-    return rows;
+    return fixtures;
 }
 
 shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout,
                                 const dvec3& origin, uint32_t cellEdge, uint32_t cellsAcross) {
     shared::FrameParams p{};
-    const std::vector<uint32_t> rows = classRows(scene);
+    const std::vector<uint32_t> fixtures = classFixtures(scene);
     p.size = {camera.depth.width, camera.depth.height, layout.across, layout.down};
     p.colourSize = {camera.colour.width, camera.colour.height, cellsAcross, cellEdge};
     const auto [lo, hi] = depthBand(scene, camera.metresPerUnit);
-    p.depthBand = {lo, hi, rows.size(), 0};
-    for (uint32_t c = 0; c < rows.size(); ++c) {
-        p.classes[c] = classParams(scene.fixtures[rows[c]], rows[c], scene, origin);
-        p.ranges[c] = rangeOf(scene.fixtures[rows[c]], scene.farZ);
-        p.depthBand.w |= scene.fixtures[rows[c]].role == Role::Forbidden ? 1u << c : 0u;
-        p.chroma.w |= scene.fixtures[rows[c]].usesColour() ? 1u << c : 0u;
+    p.depthBand = {lo, hi, fixtures.size(), 0};
+    for (uint32_t c = 0; c < fixtures.size(); ++c) {
+        p.classes[c] = classParams(scene.fixtures[fixtures[c]], fixtures[c], scene, origin);
+        p.ranges[c] = rangeOf(scene.fixtures[fixtures[c]], scene.farZ);
+        p.depthBand.w |= scene.fixtures[fixtures[c]].role == Role::Forbidden ? 1u << c : 0u;
+        p.chroma.w |= scene.fixtures[fixtures[c]].usesColour() ? 1u << c : 0u;
     }
     p.time = {0, static_cast<uint32_t>(scene.holdSeconds * 1e6), 0, forbiddenOrder(p)};
     p.lens = lensOf(camera.depth);

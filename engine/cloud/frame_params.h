@@ -11,9 +11,9 @@
 
 namespace fathom::cloud {
 
-// Rows of Scene::fixtures that are point classes, in file order: bit c of a pixel's mask is row
-// classRows(scene)[c].
-std::vector<uint32_t> classRows(const Scene& scene);
+// Indices into Scene::fixtures of the point classes, in file order: bit c of a pixel's mask is fixture
+// classFixtures(scene)[c].
+std::vector<uint32_t> classFixtures(const Scene& scene);
 
 // Smallest and largest raw depth value within near..far, inclusive. A tolerance of 1e-9 units absorbs the
 // rounding of the quotient. Empty (first > second) when no value is in range.

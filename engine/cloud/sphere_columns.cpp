@@ -71,15 +71,15 @@ FATHOM_CLONES void grow(float* __restrict radius, size_t n, const uint8_t* steps
 
 } // namespace
 
-SphereColumns::SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                             const SeenPoints* seen, bool hold)
+SphereColumns::SphereColumns(FixtureSet& set, const std::vector<uint32_t>& fixtures,
+                             const PatchLayout& layout, const SeenPoints* seen, bool hold)
     : set_(set)
     , seen_(seen)
     , words_(hold ? 16 : 8)
     , across_(layout.across)
     , width_(set.host.camera.depth.width)
     , pixels_(static_cast<uint32_t>(set.host.camera.depth.pixels())) {
-    std::ranges::transform(rows, rows_.begin(), [](uint32_t row) { return static_cast<uint8_t>(row); });
+    std::ranges::transform(fixtures, fixtures_.begin(), [](uint32_t i) { return static_cast<uint8_t>(i); });
 }
 
 void SphereColumns::put(uint32_t patch, size_t first, const PatchSpheres& spheres) noexcept {
@@ -121,15 +121,15 @@ void SphereColumns::putClasses(size_t first, const PatchSpheres& spheres, const 
     if (std::has_single_bit(spheres.classes)) { // true for most patches
         const auto only = static_cast<size_t>(std::countr_zero(spheres.classes));
         counts_.ofClass[only] += spheres.n();
-        std::fill_n(fixture, spheres.n(), rows_[only]);
+        std::fill_n(fixture, spheres.n(), fixtures_[only]);
         std::fill_n(radius, depths, depths > 0 ? seen_->radiusOf(only) : 0.0f);
         return;
     }
-    const std::array rows = rows_; // a copy: byte writes may alias the member
+    const std::array fixtures = fixtures_; // a copy: byte writes may alias the member
     for (uint32_t i = 0; i < spheres.n(); ++i) {
         const size_t pointClass = spheres.classOf[places[i] & 255] >> (places[i] >> 8) * 4 & 7u;
         ++counts_.ofClass[pointClass];
-        fixture[i] = rows[pointClass];
+        fixture[i] = fixtures[pointClass];
         if (i < depths) {
             radius[i] = seen_->radiusOf(pointClass);
         }

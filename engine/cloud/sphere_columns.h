@@ -34,9 +34,9 @@ struct PatchSpheres {
 // Writes to the host's columns, which must be large enough. One thread per object.
 class SphereColumns {
 public:
-    // rows: row of Scene::fixtures for each point class. hold: patches have a layer of held points. seen: not
+    // fixtures: classFixtures() of the scene. hold: patches have a layer of held points. seen: not
     // null if spheres are given as depths.
-    SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
+    SphereColumns(FixtureSet& set, const std::vector<uint32_t>& fixtures, const PatchLayout& layout,
                   const SeenPoints* seen, bool hold);
 
     // Writes from index `first` on. Does not allocate.
@@ -53,7 +53,7 @@ private:
     const SeenPoints* seen_;
     SphereCounts counts_;
     uint32_t words_, across_, width_, pixels_;
-    std::array<uint8_t, shared::kMaxClasses> rows_{};
+    std::array<uint8_t, shared::kMaxClasses> fixtures_{};
 };
 
 } // namespace fathom::cloud

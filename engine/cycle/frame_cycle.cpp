@@ -74,7 +74,7 @@ void FrameCycle::forget() {
 }
 
 void FrameCycle::setScene(const Scene& scene) {
-    if (cloud::classRows(scene) != cloud::classRows(scene_)) {
+    if (cloud::classFixtures(scene) != cloud::classFixtures(scene_)) {
         throw Error(
             "an active scene keeps its classes of points: only their gates, radii and roles may change");
     }
@@ -224,8 +224,8 @@ void FrameCycle::copyToHost(InFlight& f) {
     cloud::FixtureSet& set = pool_.back();
     const bool early = f.times.answerable != Clock::time_point();
     if (device_) {
-        lastCounts_ = cloud::collect(set, device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, scene_,
-                                     plan_, layout_, workers_);
+        lastCounts_ = cloud::collect(
+            set, scene_, {device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, plan_, layout_}, workers_);
     }
     guidanceEstimates_.apply(set.host.guidance, scene_, f.pose.position, f.frame->captureTime);
     lastCounts_.valid = f.valid;
@@ -265,10 +265,10 @@ FrameReport FrameCycle::finish() {
         leaks_.check(lastCounts_, scene_);
     }
     report.counts = lastCounts_;
-    const std::vector<uint32_t> rows = cloud::classRows(scene_);
+    const std::vector<uint32_t> fixtures = cloud::classFixtures(scene_);
     for (size_t c = 0; c < report.counts.classPixels.size(); ++c) {
         report.guidanceCount +=
-            scene_.fixtures[rows[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
+            scene_.fixtures[fixtures[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
     }
     captureTime_.store(f.frame->captureTime, std::memory_order_release);
     report.latencyMs = millis(f.times.started, Clock::now());

@@ -88,13 +88,13 @@ std::vector<std::string> namesOf(const Scene& scene) {
 
 TEST_CASE("Classes of points keep their rows when shapes are added and removed") {
     Pilot pilot;
-    const std::vector<uint32_t> rows = cloud::classRows(pilot.editor.scene());
+    const std::vector<uint32_t> rows = cloud::classFixtures(pilot.editor.scene());
     CHECK(rows == std::vector<uint32_t>{0, 1, 2, 3}); // red, yellow, two spare
     pilot.editor.remove(pilot.rowOf("wall"));
-    CHECK(cloud::classRows(pilot.editor.scene()) == rows);
+    CHECK(cloud::classFixtures(pilot.editor.scene()) == rows);
     CHECK(pilot.editor.place(pilot.editor.shapeAt(ShapeKind::Sphere, dvec3(0.0), dvec3(0.0, 0.0, -1.0))) ==
           "");
-    CHECK(cloud::classRows(pilot.editor.scene()) == rows);
+    CHECK(cloud::classFixtures(pilot.editor.scene()) == rows);
 }
 
 TEST_CASE("A recording has each change of fixtures from the first frame that used it, in the rows that "
@@ -127,7 +127,7 @@ TEST_CASE("A recording has each change of fixtures from the first frame that use
         CHECK(edit.scene.fixtures[1].frozen);
         CHECK(edit.allFrozen == (image == 4));
     }
-    CHECK(cloud::classRows(edits.at(0).scene) == cloud::classRows(edits.at(3).scene));
+    CHECK(cloud::classFixtures(edits.at(0).scene) == cloud::classFixtures(edits.at(3).scene));
 }
 
 TEST_CASE("A recording without changes has no edits, nor does one that is played with another scene") {

@@ -19,7 +19,7 @@ namespace {
 void checkHost(const CloudRig& rig, const FrameReport& report) {
     const RegionSpheres& host = rig.host().spheres;
     const auto spheres = rig.slotSpheres();
-    const auto rows = cloud::classRows(rig.scene());
+    const auto rows = cloud::classFixtures(rig.scene());
     const auto forbidden = rig.forbidden();
     const auto width = static_cast<uint32_t>(rig.width());
     uint32_t before = 0, wrong = 0;
