@@ -95,8 +95,7 @@ StudyRow gpuBatchRow(const StudyContext& context, const WallRig& rig, const Tool
     std::vector<double> gpu, submit;
     std::vector<SmallestGap> gaps, first;
     for (const bool stamped : {false, true}) {
-        cloud::GapQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
-                              rig.bench.cycle().sets());
+        cloud::GapQuery query(rig.bench.queryContext());
         query.setTool(tool);
         if (stamped) {
             query.enableTimestamps();

@@ -6,6 +6,7 @@
 #include "apps/verify/pack_colour.h"
 #include "devices/frame_slots.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/cloud/device_query.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/reference/frame_view.h"
 
@@ -74,6 +75,7 @@ public:
     const Plan& plan() const { return plan_; }
     double colourBytesPerPixel() const; // uploaded; 0 = no class uses colour
     FrameCycle& cycle() const { return *cycle_; }
+    cloud::QueryContext queryContext() const { return {&device_, plan_, cycle_->layout(), cycle_->sets()}; }
     const cloud::FixtureSet& set() const { return *lease_; } // result of the last run()
 
     // Data of the last frame, row-major: class bits; filtered depth along the optical axis [m] (0 = no point)

@@ -158,8 +158,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
 StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& work,
                  const std::string& source) {
     StudyRow row = peerRow(source, "Fathom GPU tree");
-    cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
-                           rig.bench.cycle().sets());
+    cloud::TreeQuery query(rig.bench.queryContext());
     query.setTool(work.tool);
     NearPairs near;
     DecideScratch scratch;

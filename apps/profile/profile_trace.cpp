@@ -41,8 +41,7 @@ void writeTimeLine(const StudyContext& context, const std::filesystem::path& fil
         return;
     }
     const Pose touching = touchingPose(tool, bench.set().host, source.frames.front().baseTcamera);
-    ContactCycle contact(context.device, bench.plan(), bench.cycle().layout(), bench.cycle().sets(), tool,
-                         0.01);
+    ContactCycle contact(bench.queryContext(), tool, 0.01);
     Proxy proxy(tool, {}, {}, touching);
     for (int frame = 0; frame < (context.settings.quick ? 10 : 60); ++frame) {
         trace.frame(bench.run(source.frames[static_cast<size_t>(frame) % source.frames.size()]));

@@ -58,7 +58,7 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
     const Tool tool = ballTool(256);
     const Pose pose = touchingPose(tool, set.host, baseTcamera);
     const PatchLayout& layout = bench.cycle().layout();
-    cloud::TreeQuery query(context.device, bench.plan(), layout, bench.cycle().sets());
+    cloud::TreeQuery query(bench.queryContext());
     query.setTool(tool);
     query.enableTimestamps();
     NearPairs near;

@@ -64,7 +64,7 @@ struct QueryMethod {
     ContactCycle cycle;
     QueryMethod(gpu::Device& device, const WallRig& rig, Plan::Query query, const Tool& tool)
         : plan(planOf(rig, query))
-        , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kQueryReach) {}
+        , cycle({&device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets()}, tool, kQueryReach) {}
     static Plan planOf(const WallRig& rig, Plan::Query query) {
         Plan plan = rig.bench.plan();
         plan.query = query;
@@ -94,8 +94,7 @@ void timeGpuCull(const StudyContext& context, const WallRig& rig, const Touching
     NearPairs near;
     std::vector<double> gpu, submit;
     for (const bool stamped : {false, true}) {
-        cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
-                               rig.bench.cycle().sets());
+        cloud::TreeQuery query(rig.bench.queryContext());
         query.setTool(at.tool);
         if (stamped) {
             query.enableTimestamps();

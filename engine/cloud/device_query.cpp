@@ -3,16 +3,15 @@
 
 namespace fathom::cloud {
 
-DeviceQuery::DeviceQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-                         const gpu::PipelineInfo& pipeline)
-    : device_(device)
-    , layout_(layout)
-    , pool_(pool)
-    , hold_(plan.hold)
-    , pipeline_(device, pipeline)
-    , run_(device)
-    , leaves_(device)
-    , frozen_(device) {}
+DeviceQuery::DeviceQuery(const QueryContext& context, const gpu::PipelineInfo& pipeline)
+    : device_(*context.device)
+    , layout_(context.layout)
+    , pool_(context.pool)
+    , hold_(context.plan.hold)
+    , pipeline_(device_, pipeline)
+    , run_(device_)
+    , leaves_(device_)
+    , frozen_(device_) {}
 
 void DeviceQuery::setTool(const Tool& tool) {
     if (leaves_.fill(tool)) {

@@ -12,6 +12,14 @@
 
 namespace fathom::cloud {
 
+// What a query works on. Referenced objects must outlive it.
+struct QueryContext {
+    gpu::Device* device; // null only where the plan's queries are the CPU's
+    const Plan& plan;
+    const PatchLayout& layout;
+    FixturePool& pool; // every set of it can be queried
+};
+
 // One thread. Has a timeline and a command buffer of its own.
 class DeviceQuery {
 public:
@@ -24,9 +32,7 @@ public:
     double gpuMs() const { return run_.gpuMs(); }
 
 protected:
-    // pool: every set of it can be queried.
-    DeviceQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-                const gpu::PipelineInfo& pipeline);
+    DeviceQuery(const QueryContext& context, const gpu::PipelineInfo& pipeline);
 
     // The first buffers of a query's bindings.
     std::vector<const gpu::Buffer*> inputsOf(const SetBuffers& set) const;

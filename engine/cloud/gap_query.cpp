@@ -53,18 +53,17 @@ bool searchedOnDevice(const Pose& baseTtool, const dvec3& origin) {
 // Bits of the classes whose spheres in the set's device side do not count.
 uint32_t frozenClasses(const FixtureSet& set) {
     uint32_t bits = 0;
-    for (size_t c = 0; c < set.rows.size(); ++c) {
-        bits |= set.rows[c] == FixtureSet::kFrozen ? 1u << c : 0u;
+    for (size_t c = 0; c < set.fixtureOfClass.size(); ++c) {
+        bits |= set.fixtureOfClass[c] == FixtureSet::kFrozen ? 1u << c : 0u;
     }
     return bits;
 }
 
 } // namespace
 
-GapQuery::GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-                   uint32_t capacity)
-    : DeviceQuery(device, plan, layout, pool, gapPipeline(plan))
-    , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
+GapQuery::GapQuery(const QueryContext& context, uint32_t capacity)
+    : DeviceQuery(context, gapPipeline(context.plan))
+    , unused_(device_, 16, gpu::MemoryKind::Device, "unused") {
     growTo(capacity);
 }
 
@@ -151,7 +150,7 @@ void GapQuery::decide(const Batch& batch, Part part) {
         const uint32_t pose = part[pair.pose];
         const glm::dvec4 leaf = leafAt(batch.tool.leaves()[pair.leaf], batch.poses[pose], origin);
         const SmallestGap gap{gapBetween(leaf, pair.sphere), place.source, pair.leaf,
-                              static_cast<uint32_t>(place.row), pair.sphere};
+                              static_cast<uint32_t>(place.fixture), pair.sphere};
         if (comesBefore(gap, batch.out[pose])) {
             batch.out[pose] = gap;
         }

@@ -16,8 +16,7 @@ namespace fathom::cloud {
 class GapQuery : public DeviceQuery {
 public:
     // capacity: pairs in the first answer; it grows when one does not fit.
-    GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-             uint32_t capacity = 4096);
+    explicit GapQuery(const QueryContext& context, uint32_t capacity = 4096);
 
     // One answer per pose, as smallest_gap.h defines it. Blocks until the device has finished. Poses more
     // than 20 m from the set's origin are searched on the host, because float32 leaves too many pairs there.

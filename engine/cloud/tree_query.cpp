@@ -31,12 +31,10 @@ gpu::PipelineInfo pipelineOf(const Plan& plan, bool subgroups) {
 
 } // namespace
 
-TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-                     uint32_t capacity, bool subgroups)
-    : DeviceQuery(device, plan, layout, pool,
-                  pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
-    , answer_(device, {capacity, kLeavesPerSphere * capacity})
-    , unused_(device, 16, gpu::MemoryKind::Device, "unused") {}
+TreeQuery::TreeQuery(const QueryContext& context, uint32_t capacity, bool subgroups)
+    : DeviceQuery(context, pipelineOf(context.plan, subgroups && context.device->facts().subgroupArithmetic))
+    , answer_(device_, {capacity, kLeavesPerSphere * capacity})
+    , unused_(device_, 16, gpu::MemoryKind::Device, "unused") {}
 
 void TreeQuery::makeBindings() {
     const gpu::Buffer* const answer = &answer_.buffer();
@@ -152,8 +150,8 @@ void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
     near.spheres.clear();
     for (const shared::FoundSphere& f : answer_.spheres()) {
         const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.pointClass);
-        if (place.row != FixtureSet::kFrozen) {
-            near.spheres.push_back({place.source, static_cast<uint32_t>(place.row), f.first, f.count,
+        if (place.fixture != FixtureSet::kFrozen) {
+            near.spheres.push_back({place.source, static_cast<uint32_t>(place.fixture), f.first, f.count,
                                     f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w});
         }
     }

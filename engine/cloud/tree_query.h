@@ -16,8 +16,7 @@ class TreeQuery : public DeviceQuery {
 public:
     // capacity: spheres in the first answer; it grows when an answer does not fit. subgroups: compact the
     // answer by subgroup where the device can.
-    TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-              uint32_t capacity = 4096, bool subgroups = true);
+    explicit TreeQuery(const QueryContext& context, uint32_t capacity = 4096, bool subgroups = true);
 
     // Lists in `near` every pair of leaf and sphere whose gap is at most `reach` [m], and a few more. Blocks
     // until the device has finished. False when not even the device's largest buffer holds the answer.

@@ -18,26 +18,24 @@ ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmSetup* arm)
     , arm_(arm)
     , reach_(reach) {}
 
-ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmSetup* arm,
-                           const QueryCapacity& capacity)
+ContactCycle::ContactCycle(const cloud::QueryContext& context, const Tool& tool, double reach,
+                           const ArmSetup* arm, const QueryCapacity& capacity)
     : ContactCycle(tool, reach, arm) {
     cpu_ = CullCpu(capacity);
     gpuLoop_ = QueryLoop(capacity);
-    use(&device, plan, layout, pool);
+    use(context);
 }
 
-void ContactCycle::use(gpu::Device* device, const Plan& plan, const PatchLayout& layout,
-                       cloud::FixturePool& pool) {
-    where_ = plan.query;
-    layout_ = layout;
+void ContactCycle::use(const cloud::QueryContext& context) {
+    where_ = context.plan.query;
+    layout_ = context.layout;
     if (where_ != Plan::Query::Gpu) {
         return;
     }
-    gpu_.emplace(*device, plan, layout, pool);
+    gpu_.emplace(context);
     if (!gpu_->passesProbe()) {
         log::warn("contact query: {} misses contacts in a test of its arithmetic: the CPU answers",
-                  device->facts().name);
+                  context.device->facts().name);
         gpu_.reset();
     } else if (arm_ == nullptr) {
         gpu_->setTool(tool_);

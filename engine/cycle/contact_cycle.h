@@ -20,14 +20,12 @@ public:
     // the CPU answers.
     ContactCycle(const Tool& tool, double reach, const ArmSetup* arm);
     // The same, then use(). capacity: of the first contact sets.
-    ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
-                 const Tool& tool, double reach, const ArmSetup* arm = nullptr,
-                 const QueryCapacity& capacity = {});
+    ContactCycle(const cloud::QueryContext& context, const Tool& tool, double reach,
+                 const ArmSetup* arm = nullptr, const QueryCapacity& capacity = {});
 
     // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU. A
-    // device whose arithmetic fails a test at use() is not used, with a warning. device: null is allowed
-    // unless the plan queries on the GPU.
-    void use(gpu::Device* device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
+    // device whose arithmetic fails a test at use() is not used, with a warning.
+    void use(const cloud::QueryContext& context);
     void dropDevice() { gpu_.reset(); }
     bool onDevice() const { return gpu_.has_value(); } // the device answers
 

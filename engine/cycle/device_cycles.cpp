@@ -21,9 +21,10 @@ DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
 }
 
 void DeviceCycles::useDevice() {
-    contact_.use(device_.get(), plan_, frames_->layout(), frames_->sets());
+    const cloud::QueryContext context{device_.get(), plan_, frames_->layout(), frames_->sets()};
+    contact_.use(context);
     if (contact_.onDevice()) {
-        gaps_.use(*device_, plan_, frames_->layout(), frames_->sets());
+        gaps_.use(context);
     }
 }
 

@@ -3,27 +3,26 @@
 
 namespace fathom {
 
-void GapCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                   cloud::FixturePool& pool) {
+void GapCycle::use(const cloud::QueryContext& context) {
     gpu_.reset();
-    place_.emplace(Place{device, plan, layout, pool});
+    context_.emplace(context);
 }
 
 void GapCycle::dropDevice() {
     gpu_.reset();
-    place_.reset();
+    context_.reset();
 }
 
 void GapCycle::find(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
                     std::vector<SmallestGap>& out) {
-    const bool gone = !place_ || !set.device.nodes; // the device, or the set's device side
+    const bool gone = !context_ || !set.device.nodes; // the device, or the set's device side
     // One pose is less work than a submission to a CPU device, which would also delay contact queries.
-    if (gone || (place_->device.facts().kind == DeviceKind::Cpu && baseTtool.size() == 1)) {
+    if (gone || (context_->device->facts().kind == DeviceKind::Cpu && baseTtool.size() == 1)) {
         findOnHost(set.host, tool, baseTtool, out);
         return;
     }
     if (!gpu_) {
-        gpu_.emplace(place_->device, place_->plan, place_->layout, place_->pool);
+        gpu_.emplace(*context_);
     }
     gpu_->setTool(tool);
     gpu_->find(set, tool, baseTtool, out);

@@ -14,7 +14,7 @@ class GapCycle {
 public:
     // From the next batch on: use() works on the device, dropDevice() on the CPU. The pipeline is compiled
     // with the first batch. Referenced objects must outlive this or the next dropDevice().
-    void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
+    void use(const cloud::QueryContext& context);
     void dropDevice();
 
     // Fills `out` with one answer per pose. Throws DeviceFailed.
@@ -25,13 +25,7 @@ private:
     void findOnHost(const HostFixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
                     std::vector<SmallestGap>& out);
 
-    struct Place {
-        gpu::Device& device;
-        const Plan& plan;
-        const PatchLayout& layout;
-        cloud::FixturePool& pool;
-    };
-    std::optional<Place> place_;
+    std::optional<cloud::QueryContext> context_;
     std::optional<cloud::GapQuery> gpu_;
     GapSearch cpu_;
     const HostFixtures* searched_ = nullptr; // what cpu_ was built from

@@ -26,8 +26,8 @@ struct StepRig {
     explicit StepRig(Plan::Query query, bool pack = false)
         : rig(
               scene, camera, [=](Plan& plan) { change(plan, query, pack); }, 2)
-        , cpu(vulkan().device, planOf(Plan::Query::Cpu), rig.layout(), sets(), tool, 0.05)
-        , gpu(vulkan().device, planOf(query), rig.layout(), sets(), tool, 0.05) {}
+        , cpu({&vulkan().device, planOf(Plan::Query::Cpu), rig.layout(), sets()}, tool, 0.05)
+        , gpu({&vulkan().device, planOf(query), rig.layout(), sets()}, tool, 0.05) {}
     static void change(Plan& plan, Plan::Query query, bool pack) {
         plan.query = query;
         plan.tree = query == Plan::Query::Gpu;

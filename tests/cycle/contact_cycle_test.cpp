@@ -69,13 +69,17 @@ struct ContactRig {
         scene.contact.where = Scene::Contact::Where::Gpu; // so that sets have the data of the GPU query
         return makePlan(scene, camera.info(), 1, vulkan().device.facts());
     }
+    cloud::QueryContext context() { return context(plan); }
+    cloud::QueryContext context(const Plan& p) {
+        return {&vulkan().device, p, frames.layout(), frames.sets()};
+    }
 };
 
 size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t seed) {
     Plan onCpu = rig.plan;
     onCpu.query = Plan::Query::Cpu;
-    ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
-    ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    ContactCycle cpu(rig.context(onCpu), tool, reach);
+    ContactCycle gpu(rig.context(), tool, reach);
     CHECK(gpu.onDevice());
     const auto set = rig.frames.sets().newest();
     std::mt19937 random(seed);
@@ -113,8 +117,7 @@ TEST_CASE("Both queries agree for zero reach and for a reach over the whole scen
 TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
-    cloud::TreeQuery small(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), 1),
-        large(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), 1u << 17);
+    cloud::TreeQuery small(rig.context(), 1), large(rig.context(), 1u << 17);
     const auto set = rig.frames.sets().newest();
     const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
     small.setTool(tool);
@@ -139,7 +142,7 @@ TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
 
 TEST_CASE("The probe passes with the margin of the reach, and fails without it") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
-    cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets());
+    cloud::TreeQuery query(rig.context());
     CHECK(query.passesProbe());
     CHECK_FALSE(query.passesProbe(5e-6));
     CHECK_FALSE(query.passesProbe(0.0, 0.0f));
@@ -154,12 +157,11 @@ TEST_CASE("A contact answer that overflows certifies the reach that fits, and th
     Plan onCpu = rig.plan;
     onCpu.query = Plan::Query::Cpu;
     const double reach = 0.1;
-    ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    ContactCycle cpu(rig.context(onCpu), tool, reach);
     ContactSet whole;
     cpu.query(*set, pose, whole);
     REQUIRE(whole.size() > 256);
-    ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach, nullptr,
-                     {whole.size() - 1, whole.pairSphere.size()});
+    ContactCycle gpu(rig.context(), tool, reach, nullptr, {whole.size() - 1, whole.pairSphere.size()});
     ContactSet first, second;
     gpu.query(*set, pose, first);
     CHECK(first.reach < whole.reach);
@@ -197,7 +199,7 @@ TEST_CASE("A scene without forbidden points lets the tool go anywhere and uses n
     ContactRig rig(scene, 1);
     CHECK(rig.plan.query == Plan::Query::None);
     const Tool tool = randomTool(2, 1);
-    ContactCycle contact(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 0.01);
+    ContactCycle contact(rig.context(), tool, 0.01);
     ContactSet set;
     contact.query(*rig.frames.sets().newest(), Pose{}, set);
     CHECK(set.size() == 0);
@@ -215,7 +217,8 @@ TEST_CASE("A query reaches as much farther as the tool's motion needs, and names
     set.host.spheres.add({0.0, 0.0, 0.3}, 0.02);
     set.grid.build(set.host.spheres, nullptr);
     ContactCycle contacts(tool, 0.01, nullptr);
-    contacts.use(nullptr, plan, PatchLayout(), pool);
+    const PatchLayout layout;
+    contacts.use({nullptr, plan, layout, pool});
     QueryPlace at;
     ContactSet answer;
     for (const double more : {0.0, 0.005}) {

@@ -44,7 +44,7 @@ size_t checkBatch(cloud::GapQuery& query, const CloudRig& rig, const Tool& tool,
 }
 
 cloud::GapQuery queryOf(const CloudRig& rig, uint32_t capacity = 4096) {
-    return {vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets(), capacity};
+    return cloud::GapQuery({&vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets()}, capacity);
 }
 
 } // namespace

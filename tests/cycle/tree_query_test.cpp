@@ -27,9 +27,10 @@ struct Both {
         , tool(asked)
         , arm(onArm) {
         Plan plan = rig.plan();
-        gpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
+        const cloud::QueryContext context{&vulkan().device, plan, rig.layout(), rig.cycle().sets()};
+        gpu.emplace(context, tool, reach, arm);
         plan.query = Plan::Query::Cpu;
-        cpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
+        cpu.emplace(context, tool, reach, arm);
         CHECK(gpu->onDevice());
         CHECK_FALSE(cpu->onDevice());
     }
@@ -86,7 +87,8 @@ TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
     const Pose pose{{0, 0, 0.9}, {1, 0, 0, 0}};
     std::vector<ContactSet> sets(2);
     for (const bool subgroups : {true, false}) {
-        cloud::TreeQuery query(vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets(), 64, subgroups);
+        cloud::TreeQuery query({&vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets()}, 64,
+                               subgroups);
         CHECK(query.passesProbe());
         query.setTool(tool);
         NearPairs near;
@@ -104,7 +106,7 @@ TEST_CASE("The GPU decides nearly all pairs, and as the host would") {
     CloudRig rig(plainScene(), camera, queriedByGpu(false));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     const Tool tool = leafyTool(300, 0.2);
-    cloud::TreeQuery query(vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets());
+    cloud::TreeQuery query({&vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets()});
     query.setTool(tool);
     for (const double reach : {1e-9, 0.002, 0.01, 0.1}) {
         CAPTURE(reach);
