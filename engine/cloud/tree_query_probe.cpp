@@ -81,8 +81,7 @@ Probe probeAt(const Tool& tool, const Pose& pose, std::mt19937_64& random) {
         const glm::vec4& s = probe.spheres.back();
         probe.largest = std::max(probe.largest, double{s.w});
         for (uint32_t l = 0; l < leaves.size(); ++l) {
-            const double gap =
-                exactGap(leaves[l].x, leaves[l].y, leaves[l].z, tool.leaves()[l].radius, s.x, s.y, s.z, s.w);
+            const double gap = exactGap({leaves[l], tool.leaves()[l].radius}, s.x, s.y, s.z, s.w);
             if (gap <= kProbeReach) {
                 probe.within.emplace(std::pair(i, l), l * ContactSet::kGapBands + bands.bandOf(gap));
             }

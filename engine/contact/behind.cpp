@@ -18,16 +18,16 @@ constexpr double kMostJump = 0.1; // [m] beyond R + r, of a surface between two 
 // Deepest overlap of the leaf with any listed sphere [m]; 0 when it is clear of all.
 double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
     double deepest = 0.0;
-    const PairArrays run = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, 0.0));
+    const SphereSpan run = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, 0.0));
     for (size_t k = 0; k < run.count; ++k) {
-        deepest = std::max(deepest, -gapOf(run, k, set.leafAtQuery[leaf], radius));
+        deepest = std::max(deepest, -gapOf(run, k, {set.leafAtQuery[leaf], radius}));
     }
     return deepest;
 }
 
 // Whether a listed sphere is less than `before` [m] behind the leaf's centre, seen from the camera.
 bool hasSphere(const ContactSet& set, uint32_t leaf, const dvec3& towardsCamera, double before) {
-    const PairArrays run = pairsOf(set, set.pairBegin[leaf], set.pairBegin[leaf + 1]);
+    const SphereSpan run = pairsOf(set, set.pairBegin[leaf], set.pairBegin[leaf + 1]);
     for (size_t k = 0; k < run.count; ++k) {
         if (glm::dot(awayFrom(run, k, set.leafAtQuery[leaf]), towardsCamera) < before) {
             return true;

@@ -19,9 +19,7 @@ void findPairs(uint32_t leaf, double leafRadius, double limit, PairScratch& scra
     const double far = limit + leafRadius + grid.maxRadius() + kPairMargin;
     grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
         scratch.gaps.resize(std::max<size_t>(scratch.gaps.size(), end - begin));
-        const PairArrays run{grid.x().data() + begin, grid.y().data() + begin, grid.z().data() + begin,
-                             grid.radius().data() + begin, end - begin};
-        if (pairGaps(run, centre, leafRadius, limit, scratch.gaps.data()) == 0) {
+        if (pairGaps(grid.run(begin, end - begin), {centre, leafRadius}, limit, scratch.gaps.data()) == 0) {
             return;
         }
         for (uint32_t k = 0; k < end - begin; ++k) {

@@ -14,15 +14,11 @@ constexpr uint32_t kBlock = 32; // slots per kernel step (marks are bytes)
 constexpr uint32_t kFew = 5;    // up to this many slots a scalar loop is faster
 
 FATHOM_CLONES
-void markKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                const float* __restrict radius, size_t count, float cx, float cy, float cz,
-                float reachAndLeaf, uint8_t* __restrict marks) noexcept {
-    for (size_t k = 0; k < count; ++k) {
-        const float dx = cx - x[k];
-        const float dy = cy - y[k];
-        const float dz = cz - z[k];
-        const float limit = reachAndLeaf + radius[k];
-        marks[k] |= static_cast<uint8_t>(dx * dx + dy * dy + dz * dz <= limit * limit ? 1 : 0);
+void markKernel(SphereSpan run, glm::vec3 leaf, float limit, uint8_t* __restrict marks) noexcept {
+    for (size_t k = 0; k < run.count; ++k) {
+        const float dx = leaf.x - run.x[k], dy = leaf.y - run.y[k], dz = leaf.z - run.z[k];
+        const float far = limit + run.radius[k];
+        marks[k] |= static_cast<uint8_t>(dx * dx + dy * dy + dz * dz <= far * far ? 1 : 0);
     }
 }
 
@@ -35,17 +31,19 @@ uint32_t wholeSteps(uint32_t begin, uint32_t end, uint32_t slots) noexcept {
 
 } // namespace
 
+void markWithin(const SphereSpan& run, const glm::vec3& leaf, float limit, uint8_t* marks) noexcept {
+    markKernel(run, leaf, limit, marks);
+}
+
 void CullCpu::markByLeaf(const PosedLeaves& leaves, float reach, const RegionGrid& grid) {
     const auto slots = static_cast<uint32_t>(grid.size());
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float limit = reach + leaves.radius[i];
         // The grid query is in float64, with a box wider than any float32 rounding.
         const double far = (static_cast<double>(limit) + grid.maxRadius()) * (1.0 + 1e-5) + 1e-9;
-        const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
-        grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
-            markKernel(grid.x().data() + begin, grid.y().data() + begin, grid.z().data() + begin,
-                       grid.radius().data() + begin, wholeSteps(begin, end, slots), leaves.x[i], leaves.y[i],
-                       leaves.z[i], limit, marks_.data() + begin);
+        const glm::vec3 centre = leaves.centre(i);
+        grid.forEachRun(dvec3(centre), far, [&](uint32_t begin, uint32_t end) {
+            markWithin(grid.run(begin, wholeSteps(begin, end, slots)), centre, limit, marks_.data() + begin);
         });
     }
 }

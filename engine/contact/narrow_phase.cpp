@@ -121,12 +121,12 @@ bool NarrowPhase::addOnlyRow(const ContactSet& set, PairRun& run, double limit) 
     }
     const dvec3 centre = leaves_[run.leaf];
     const double* const gaps = runs_.gapsOf(run);
-    const PairArrays all = pairsOf(set, run.first, run.first + run.count);
+    const SphereSpan all = pairsOf(set, run.first, run.first + run.count);
     const auto nearest = static_cast<uint32_t>(indexOfGap(gaps, run.count, run.nearest));
     const ContactRow row =
         rowOf(set, run.leaf, awayFrom(all, nearest, centre), run.nearest, run.first + nearest);
     const ConeRoom room =
-        roomInCone(all, centre, radius_[run.leaf], row.normal, cosCone_, run.members, gaps, left_.data());
+        roomInCone(all, {centre, radius_[run.leaf]}, row.normal, cosCone_, run.members, gaps, left_.data());
     if (!(room.least > kPairRounding)) {
         return false;
     }
@@ -148,7 +148,7 @@ bool NarrowPhase::addSameRow(const ContactSet& set, const PairRun& run, double l
     const dvec3 centre = leaves_[run.leaf];
     uint32_t from = 0;
     const PairList near = runs_.upTo(set, run, most, from);
-    pairGaps(near.arrays, centre, r, limit, gaps_.data());
+    pairGaps(near.arrays, {centre, r}, limit, gaps_.data());
     const double least = smallestGapOf(gaps_.data(), near.arrays.count);
     if (!(least <= limit)) {
         return true; // no row any more
@@ -172,7 +172,7 @@ void NarrowPhase::addRowsOf(const ContactSet& set, const PairRun& run, double li
     const size_t firstRow = rowCount_;
     for (uint32_t from = 0; from < run.count;) {
         const PairList part = runs_.upTo(set, run, run.members, from);
-        if (pairGaps(part.arrays, leaves_[run.leaf], radius_[run.leaf], limit, gaps_.data()) != 0) {
+        if (pairGaps(part.arrays, leafAt(run.leaf), limit, gaps_.data()) != 0) {
             chooseRows(set, run.leaf, part.arrays, 0, part.pair, firstRow, limit);
         }
     }
@@ -182,8 +182,8 @@ void NarrowPhase::addRowsOf(const ContactSet& set, const PairRun& run, double li
 void NarrowPhase::addRowsOfListed(const ContactSet& set, uint32_t leaf, uint32_t end, double limit) noexcept {
     const size_t firstRow = rowCount_;
     for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
-        const PairArrays part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
-        if (pairGaps(part, leaves_[leaf], radius_[leaf], limit, gaps_.data()) != 0) {
+        const SphereSpan part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+        if (pairGaps(part, leafAt(leaf), limit, gaps_.data()) != 0) {
             chooseRows(set, leaf, part, begin, nullptr, firstRow, limit);
         }
     }
@@ -222,8 +222,8 @@ void NarrowPhase::addSmoothRow(const ContactSet& set, const PairRun& run,
     uint32_t from = 0;
     const PairList near = runs_.upTo(set, run, nearest.gap + depth + travelled(run) + kPairRounding, from);
     SmoothPlane plane;
-    if (near.complete && smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf],
-                                     {nearest.normal, nearest.gap}, depth, plane)) {
+    if (near.complete &&
+        smoothPlane(near.arrays, leafAt(run.leaf), {nearest.normal, nearest.gap}, depth, plane)) {
         ContactRow& row = smoothRows_[smoothCount_++] = nearest;
         row.normal = plane.normal;
         row.gap = plane.gap;
@@ -250,7 +250,7 @@ void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t fir
 
 // Greedy over one run with gaps_ (overwrites them): the nearest pair, then the nearest outside its cone, and
 // so on. pairs: the pairs of its elements; null = consecutive from firstPair.
-void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const SphereSpan& run, uint32_t firstPair,
                              const uint32_t* pairs, size_t firstRow, double limit) noexcept {
     const dvec3 centre = leaves_[leaf];
     size_t left = run.count;

@@ -87,12 +87,13 @@ private:
     void addRowsOf(const ContactSet& set, const PairRun& run, double limit) noexcept;
     void addRowsOfListed(const ContactSet& set, uint32_t leaf, uint32_t end, double limit) noexcept;
     void finishLeaf(const ContactSet& set, uint32_t leaf, size_t firstRow, const PairRun* run) noexcept;
+    Sphere leafAt(uint32_t leaf) const noexcept { return {leaves_[leaf], radius_[leaf]}; }
     // [m] since the gaps of the run were computed
     double travelled(const PairRun& run) const noexcept {
         return glm::distance(leaves_[run.leaf], run.centre);
     }
     uint32_t listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept;
-    void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+    void chooseRows(const ContactSet& set, uint32_t leaf, const SphereSpan& run, uint32_t firstPair,
                     const uint32_t* pairs, size_t firstRow, double limit) noexcept;
     void addSmoothRow(const ContactSet& set, const PairRun& run, const ContactRow& nearest) noexcept;
     void agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
@@ -102,7 +103,7 @@ private:
                       const dvec3& exempt) noexcept;
     Deepest deepestListed(const ContactSet& set, uint32_t leaf, const dvec3& next,
                           const dvec3& exempt) noexcept;
-    void deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+    void deepen(Deepest& deepest, uint32_t leaf, const SphereSpan& run, uint32_t firstPair,
                 const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept;
 
     bool counts(const ContactSet& set, uint32_t leaf) const noexcept { // most leaves have no pairs

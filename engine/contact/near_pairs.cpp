@@ -46,7 +46,7 @@ float upToFloat(double x) {
 uint32_t decide(uint32_t undecided, const NearSphere& s, const Tool& tool, const ContactSet& set) {
     const uint32_t leaf = (undecided & ~NearPairs::kUndecided) / ContactSet::kGapBands;
     const dvec3 c = set.leafAtQuery[leaf];
-    const double gap = exactGap(c.x, c.y, c.z, tool.leaves()[leaf].radius, s.x, s.y, s.z, s.radius);
+    const double gap = exactGap({c, tool.leaves()[leaf].radius}, s.x, s.y, s.z, s.radius);
     return gap <= set.reach + kPairMargin ? leaf * ContactSet::kGapBands + set.bandOf(gap)
                                           : NearPairs::kUndecided;
 }

@@ -47,7 +47,7 @@ NarrowPhase::Deepest NarrowPhase::deepestListed(const ContactSet& set, uint32_t 
     Deepest deepest;
     const uint32_t end = listedUpTo(set, leaf, checkLimit_);
     for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
-        const PairArrays part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+        const SphereSpan part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
         deepen(deepest, leaf, part, begin, nullptr, next, exempt);
     }
     return deepest;
@@ -55,7 +55,7 @@ NarrowPhase::Deepest NarrowPhase::deepestListed(const ContactSet& set, uint32_t 
 
 // Keeps the deepest violation of the leaf. pairs: the pairs of the run's elements; null = consecutive from
 // firstPair.
-void NarrowPhase::deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+void NarrowPhase::deepen(Deepest& deepest, uint32_t leaf, const SphereSpan& run, uint32_t firstPair,
                          const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept {
     const dvec3 from = leaves_[leaf];
     const bool exempts = exempt != dvec3(0.0);
@@ -65,7 +65,7 @@ void NarrowPhase::deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run,
             continue;
         }
         --left;
-        const double gap = gapOf(run, k, from, radius_[leaf]), depth = std::min(0.0, gap) - gaps_[k];
+        const double gap = gapOf(run, k, {from, radius_[leaf]}), depth = std::min(0.0, gap) - gaps_[k];
         const dvec3 delta = awayFrom(run, k, from);
         if (depth > deepest.depth && !(exempts && glm::dot(delta, exempt) < kCosHolds * glm::length(delta))) {
             deepest = {depth, gap, pairs != nullptr ? pairs[k] : firstPair + static_cast<uint32_t>(k)};
@@ -85,8 +85,8 @@ double NarrowPhase::smallestGapAt(const ContactSet& set, const LeafCentres& leav
             const uint32_t band0 = set.pairsUpTo(leaf, 0.0);
             const uint32_t end = first ? band0 : set.pairsUpTo(leaf, smallest + moved + kPairRounding);
             for (uint32_t begin = first ? set.pairBegin[leaf] : band0; begin < end; begin += kPairChunk) {
-                const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
-                if (pairGaps(run, leaves[leaf], radius_[leaf], smallest, gaps_.data()) != 0) {
+                const SphereSpan run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+                if (pairGaps(run, {leaves[leaf], radius_[leaf]}, smallest, gaps_.data()) != 0) {
                     smallest = std::min(smallest, smallestGapOf(gaps_.data(), run.count));
                 }
             }

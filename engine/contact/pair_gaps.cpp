@@ -21,14 +21,12 @@ constexpr size_t kGapLanes = 8; // lanes of the widest register
 using GapLanes = double __attribute__((vector_size(8 * kGapLanes)));
 constexpr size_t kGapBlock = 256; // gaps per step of a search
 
-// All by value, so that the compiler knows that writing gaps does not change them.
+// Leaves and vectors, too, are passed by value, so that writing gaps does not change them.
 FATHOM_CLONES
-int64_t gapsKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                   const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                   double limit, double* __restrict gaps) noexcept {
+int64_t gapsKernel(SphereSpan run, Sphere leaf, double limit, double* __restrict gaps) noexcept {
     int64_t below = 0;
-    for (size_t k = 0; k < count; ++k) {
-        const double gap = exactGap(cx, cy, cz, r, x[k], y[k], z[k], radius[k]);
+    for (size_t k = 0; k < run.count; ++k) {
+        const double gap = exactGap(leaf, run.x[k], run.y[k], run.z[k], run.radius[k]);
         gaps[k] = gap;
         below += gap <= limit ? 1 : 0;
     }
@@ -36,40 +34,38 @@ int64_t gapsKernel(const float* __restrict x, const float* __restrict y, const f
 }
 
 FATHOM_CLONES
-void memberKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                  const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                  double members, double* __restrict gaps) noexcept {
-    for (size_t k = 0; k < count; ++k) {
-        const double gap = exactGap(cx, cy, cz, r, x[k], y[k], z[k], radius[k]);
+void memberKernel(SphereSpan run, Sphere leaf, double members, double* __restrict gaps) noexcept {
+    for (size_t k = 0; k < run.count; ++k) {
+        const double gap = exactGap(leaf, run.x[k], run.y[k], run.z[k], run.radius[k]);
         const double others = gaps[k] <= members ? 0.0 : kInfinity;
         gaps[k] = gap + others;
     }
 }
 
+// r: radius of the leaf that moves from a to b.
 FATHOM_CLONES
-int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                    const float* __restrict radius, size_t count, double ax, double ay, double az, double bx,
-                    double by, double bz, double inverseLength2, double r, double* __restrict gaps) noexcept {
-    const double vx = bx - ax, vy = by - ay, vz = bz - az;
+int64_t sweptKernel(SphereSpan run, dvec3 a, dvec3 b, double inverseLength2, double r,
+                    double* __restrict gaps) noexcept {
+    const dvec3 v = b - a;
     int64_t below = 0;
-    for (size_t k = 0; k < count; ++k) {
-        const double sx = static_cast<double>(x[k]);
-        const double sy = static_cast<double>(y[k]);
-        const double sz = static_cast<double>(z[k]);
-        const double ux = ax - sx, uy = ay - sy, uz = az - sz;
-        const double wx = bx - sx, wy = by - sy, wz = bz - sz;
+    for (size_t k = 0; k < run.count; ++k) {
+        const double sx = static_cast<double>(run.x[k]);
+        const double sy = static_cast<double>(run.y[k]);
+        const double sz = static_cast<double>(run.z[k]);
+        const double ux = a.x - sx, uy = a.y - sy, uz = a.z - sz;
+        const double wx = b.x - sx, wy = b.y - sy, wz = b.z - sz;
         const double start = ux * ux + uy * uy + uz * uz;
         const double end = wx * wx + wy * wy + wz * wz;
         // Nearest point of the infinite line. Outside the segment an end is nearer, so t is clamped.
-        double t = -(ux * vx + uy * vy + uz * vz) * inverseLength2;
+        double t = -(ux * v.x + uy * v.y + uz * v.z) * inverseLength2;
         t = t > 0.0 ? t : 0.0;
         t = t < 1.0 ? t : 1.0;
-        const double mx = ux + t * vx, my = uy + t * vy, mz = uz + t * vz;
+        const double mx = ux + t * v.x, my = uy + t * v.y, mz = uz + t * v.z;
         double nearest = mx * mx + my * my + mz * mz;
         nearest = t < 1.0 ? nearest : end; // at t = 1 rounding would differ from the distance at the end
         nearest = nearest < end ? nearest : end;
         nearest = nearest < start ? nearest : start;
-        const double gap = std::sqrt(nearest) - (r + static_cast<double>(radius[k]));
+        const double gap = std::sqrt(nearest) - (r + static_cast<double>(run.radius[k]));
         gaps[k] = gap;
         below += gap < 0.0 ? 1 : 0;
     }
@@ -77,15 +73,14 @@ int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const 
 }
 
 FATHOM_CLONES
-int64_t coneKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                   size_t count, double cx, double cy, double cz, double nx, double ny, double nz,
-                   double cosine2, double keepBelow, double limit, double* __restrict gaps) noexcept {
+int64_t coneKernel(SphereSpan run, dvec3 centre, dvec3 axis, double cosine2, double keepBelow, double limit,
+                   double* __restrict gaps) noexcept {
     int64_t below = 0;
-    for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(x[k]);
-        const double dy = cy - static_cast<double>(y[k]);
-        const double dz = cz - static_cast<double>(z[k]);
-        const double along = dx * nx + dy * ny + dz * nz;
+    for (size_t k = 0; k < run.count; ++k) {
+        const double dx = centre.x - static_cast<double>(run.x[k]);
+        const double dy = centre.y - static_cast<double>(run.y[k]);
+        const double dz = centre.z - static_cast<double>(run.z[k]);
+        const double along = dx * axis.x + dy * axis.y + dz * axis.z;
         const double ahead = along > 0.0 ? along : 0.0;
         const bool inside = ahead * ahead >= cosine2 * (dx * dx + dy * dy + dz * dz);
         const double gap = gaps[k];
@@ -97,17 +92,15 @@ int64_t coneKernel(const float* __restrict x, const float* __restrict y, const f
 }
 
 FATHOM_CLONES
-void roomKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                double nx, double ny, double nz, double cosine, double limit, const double* __restrict gaps,
-                double* __restrict room) noexcept {
-    for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(x[k]);
-        const double dy = cy - static_cast<double>(y[k]);
-        const double dz = cz - static_cast<double>(z[k]);
-        const double length = gaps[k] + (r + static_cast<double>(radius[k]));
+void roomKernel(SphereSpan run, Sphere leaf, dvec3 axis, double cosine, double limit,
+                const double* __restrict gaps, double* __restrict room) noexcept {
+    for (size_t k = 0; k < run.count; ++k) {
+        const double dx = leaf.centre.x - static_cast<double>(run.x[k]);
+        const double dy = leaf.centre.y - static_cast<double>(run.y[k]);
+        const double dz = leaf.centre.z - static_cast<double>(run.z[k]);
+        const double length = gaps[k] + (leaf.radius + static_cast<double>(run.radius[k]));
         const double beyond = gaps[k] <= limit ? 0.0 : kInfinity;
-        room[k] = dx * nx + dy * ny + dz * nz - cosine * length + beyond;
+        room[k] = dx * axis.x + dy * axis.y + dz * axis.z - cosine * length + beyond;
     }
 }
 
@@ -196,43 +189,36 @@ size_t pairsWithin(const double* gaps, size_t count, double limit, uint32_t* cho
     return found;
 }
 
-ConeRoom roomInCone(const PairArrays& run, const dvec3& centre, double leafRadius, const dvec3& axis,
-                    double cosine, double limit, const double* gaps, double* scratch) noexcept {
-    roomKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z, leafRadius, axis.x,
-               axis.y, axis.z, cosine, limit, gaps, scratch);
+ConeRoom roomInCone(const SphereSpan& run, const Sphere& leaf, const dvec3& axis, double cosine, double limit,
+                    const double* gaps, double* scratch) noexcept {
+    roomKernel(run, leaf, axis, cosine, limit, gaps, scratch);
     const float widest = std::bit_cast<float>(widestKernel(run.radius, run.count));
     return {smallestKernel(scratch, run.count), static_cast<double>(widest)};
 }
 
-size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
+size_t dropCone(const SphereSpan& run, const dvec3& centre, const dvec3& axis, double cosine,
                 double keepBelow, double limit, double* gaps) noexcept {
-    return static_cast<size_t>(coneKernel(run.x, run.y, run.z, run.count, centre.x, centre.y, centre.z,
-                                          axis.x, axis.y, axis.z, cosine * cosine, keepBelow, limit, gaps));
+    return static_cast<size_t>(coneKernel(run, centre, axis, cosine * cosine, keepBelow, limit, gaps));
 }
 
-size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
-                double* gaps) noexcept {
-    return static_cast<size_t>(gapsKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y,
-                                          centre.z, leafRadius, limit, gaps));
+size_t pairGaps(const SphereSpan& run, const Sphere& leaf, double limit, double* gaps) noexcept {
+    return static_cast<size_t>(gapsKernel(run, leaf, limit, gaps));
 }
 
-size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius,
+size_t sweptGaps(const SphereSpan& run, const dvec3& from, const dvec3& to, double leafRadius,
                  double* gaps) noexcept {
     const dvec3 way = to - from;
     const double length2 = glm::dot(way, way);
     const double inverse = length2 > 1e-300 ? 1.0 / length2 : 0.0;
-    return static_cast<size_t>(sweptKernel(run.x, run.y, run.z, run.radius, run.count, from.x, from.y, from.z,
-                                           to.x, to.y, to.z, inverse, leafRadius, gaps));
+    return static_cast<size_t>(sweptKernel(run, from, to, inverse, leafRadius, gaps));
 }
 
-void memberGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double members,
-                double* gaps) noexcept {
-    memberKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z, leafRadius,
-                 members, gaps);
+void memberGaps(const SphereSpan& run, const Sphere& leaf, double members, double* gaps) noexcept {
+    memberKernel(run, leaf, members, gaps);
 }
 
-double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept {
-    return exactGap(centre.x, centre.y, centre.z, leafRadius, run.x[k], run.y[k], run.z[k], run.radius[k]);
+double gapOf(const SphereSpan& run, size_t k, const Sphere& leaf) noexcept {
+    return exactGap(leaf, run.x[k], run.y[k], run.z[k], run.radius[k]);
 }
 
 } // namespace fathom

@@ -3,49 +3,33 @@
 #pragma once
 
 #include "engine/contact/contact_set.h"
+#include "engine/contact/sphere_span.h"
 #include "engine/types/pose.h"
+#include "engine/types/sphere_tree.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 namespace fathom {
 
-// A run of region spheres about one origin [m]. float32 values, float64 arithmetic.
-struct PairArrays {
-    const float* x;
-    const float* y;
-    const float* z;
-    const float* radius;
-    size_t count;
-};
-
 inline constexpr size_t kPairChunk = 2048;    // pairs per kernel call: the gaps stay in the L1 cache
 inline constexpr double kPairRounding = 1e-9; // [m] margin of searches that start from an earlier gap
 
 // Listed pairs [begin, end) of a set.
-inline PairArrays pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
+inline SphereSpan pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
     return {set.pairX.data() + begin, set.pairY.data() + begin, set.pairZ.data() + begin,
             set.pairRadius.data() + begin, end - begin};
 }
 
-// At most `most` elements of a run from `begin` on.
-inline PairArrays part(const PairArrays& run, size_t begin, size_t most) {
-    return {run.x + begin, run.y + begin, run.z + begin, run.radius + begin,
-            std::min(most, run.count - begin)};
-}
-
-// gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit.
+// exactGap() of the leaf and each sphere [m], written to gaps[0 .. count). Returns how many are <= limit.
 // Identical bits on every instruction set, and identical to gapOf().
-size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
-                double* gaps) noexcept;
+size_t pairGaps(const SphereSpan& run, const Sphere& leaf, double limit, double* gaps) noexcept;
 
 // The same for every element whose gap in `gaps` is <= members; infinity for the others.
-void memberGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double members,
-                double* gaps) noexcept;
+void memberGaps(const SphereSpan& run, const Sphere& leaf, double members, double* gaps) noexcept;
 
 // Centre of the leaf relative to element k of the run [m].
-inline dvec3 awayFrom(const PairArrays& run, size_t k, const dvec3& centre) {
+inline dvec3 awayFrom(const SphereSpan& run, size_t k, const dvec3& centre) {
     return centre - dvec3(run.x[k], run.y[k], run.z[k]);
 }
 
@@ -60,7 +44,7 @@ size_t pairsWithin(const double* gaps, size_t count, double limit, uint32_t* cho
 
 // Sets the gap to infinity for every pair with a normal within the cone about `axis` (unit; cosine of its
 // half angle) and a gap not below `keepBelow`. Returns how many are still <= limit.
-size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
+size_t dropCone(const SphereSpan& run, const dvec3& centre, const dvec3& axis, double cosine,
                 double keepBelow, double limit, double* gaps) noexcept;
 
 // How far the pairs with a gap <= limit are inside of the cone about `axis`, as along - cosine |d| of the
@@ -69,16 +53,16 @@ struct ConeRoom {
     double least;  // [m] infinity without such a pair
     double widest; // [m] largest radius of the run's spheres, at least 0
 };
-// gaps: of the leaf at `centre`, by pairGaps(). scratch: run.count numbers.
-ConeRoom roomInCone(const PairArrays& run, const dvec3& centre, double leafRadius, const dvec3& axis,
-                    double cosine, double limit, const double* gaps, double* scratch) noexcept;
+// gaps: of this leaf, by pairGaps(). scratch: run.count numbers.
+ConeRoom roomInCone(const SphereSpan& run, const Sphere& leaf, const dvec3& axis, double cosine, double limit,
+                    const double* gaps, double* scratch) noexcept;
 
 // Smallest gap of each pair along the straight path of the leaf centre from `from` to `to`, including the
 // exact gaps at both ends. Returns how many are < 0. So a step cannot jump over a sphere, however small.
-size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius,
+size_t sweptGaps(const SphereSpan& run, const dvec3& from, const dvec3& to, double leafRadius,
                  double* gaps) noexcept;
 
 // One pair: element k of the run.
-double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept;
+double gapOf(const SphereSpan& run, size_t k, const Sphere& leaf) noexcept;
 
 } // namespace fathom

@@ -44,7 +44,7 @@ PairRun* PairRuns::add(const ContactSet& set, uint32_t leaf, uint32_t first, uin
         return nullptr;
     }
     double* const gaps = gaps_.data() + gapCount_;
-    if (pairGaps(pairsOf(set, first, end), centres_[leaf], radius, limit, gaps) == 0) {
+    if (pairGaps(pairsOf(set, first, end), {centres_[leaf], radius}, limit, gaps) == 0) {
         return nullptr;
     }
     PairRun& run = runs_[count_++];
@@ -55,7 +55,7 @@ PairRun* PairRuns::add(const ContactSet& set, uint32_t leaf, uint32_t first, uin
 
 void PairRuns::refresh(const ContactSet& set, PairRun& run, const dvec3& centre, double radius) noexcept {
     double* const gaps = gaps_.data() + run.gaps;
-    memberGaps(pairsOf(set, run.first, run.first + run.count), centre, radius, run.members, gaps);
+    memberGaps(pairsOf(set, run.first, run.first + run.count), {centre, radius}, run.members, gaps);
     run.members = std::numeric_limits<double>::max(); // others have an infinite gap now
     run.centre = centre;
     run.nearest = smallestGapOf(gaps, run.count);

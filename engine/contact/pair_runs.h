@@ -32,7 +32,7 @@ struct PairRun {
 
 // Pairs with their sphere values, padded with unreachable spheres so that kernels process whole registers.
 struct PairList {
-    PairArrays arrays;
+    SphereSpan arrays;
     const uint32_t* pair;
     bool complete; // there are no more than these
 };
@@ -69,7 +69,7 @@ private:
         std::vector<uint32_t> pair;
 
         explicit Columns(size_t capacity);
-        PairArrays arrays(size_t first, size_t count) const {
+        SphereSpan arrays(size_t first, size_t count) const {
             return {x.data() + first, y.data() + first, z.data() + first, radius.data() + first, count};
         }
     };

@@ -17,22 +17,20 @@ constexpr double kShortRun = 8.0; // spheres; with longer runs a walk for each l
 using SphereLanes = float __attribute__((vector_size(4 * kPatchLanes)));
 using FoundLanes = int32_t __attribute__((vector_size(4 * kPatchLanes)));
 
-// The arithmetic of CullCpu::cull(). Steps are whole: the arrays have kPatchLanes - 1 more elements.
+// The arithmetic of CullCpu::cull(). Steps are whole: the arrays have kPatchLanes - 1 more elements. leaves:
+// limits in the place of radii.
 FATHOM_CLONES
-void findKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                const float* __restrict radius, size_t count, const float* __restrict leafX,
-                const float* __restrict leafY, const float* __restrict leafZ, const float* __restrict limit,
-                size_t leaves, int32_t* __restrict found) noexcept {
-    for (size_t k = 0; k < count; k += kPatchLanes) {
+void findKernel(SphereSpan run, SphereSpan leaves, int32_t* __restrict found) noexcept {
+    for (size_t k = 0; k < run.count; k += kPatchLanes) {
         SphereLanes sx, sy, sz, sr;
-        std::memcpy(&sx, x + k, sizeof sx);
-        std::memcpy(&sy, y + k, sizeof sy);
-        std::memcpy(&sz, z + k, sizeof sz);
-        std::memcpy(&sr, radius + k, sizeof sr);
+        std::memcpy(&sx, run.x + k, sizeof sx);
+        std::memcpy(&sy, run.y + k, sizeof sy);
+        std::memcpy(&sz, run.z + k, sizeof sz);
+        std::memcpy(&sr, run.radius + k, sizeof sr);
         FoundLanes any{};
-        for (size_t l = 0; l < leaves; ++l) {
-            const SphereLanes dx = leafX[l] - sx, dy = leafY[l] - sy, dz = leafZ[l] - sz;
-            const SphereLanes far = limit[l] + sr;
+        for (size_t l = 0; l < leaves.count; ++l) {
+            const SphereLanes dx = leaves.x[l] - sx, dy = leaves.y[l] - sy, dz = leaves.z[l] - sz;
+            const SphereLanes far = leaves.radius[l] + sr;
             any |= dx * dx + dy * dy + dz * dz <= far * far;
         }
         std::memcpy(found + k, &any, sizeof any);
@@ -102,8 +100,8 @@ void PatchCull::mark(const PosedLeaves& leaves, float reach, const RegionGrid& g
     for (size_t begin = 0; begin < leaves.x.size(); begin += kPatchLeaves) {
         const Patch patch = patchOf(leaves, begin, reach);
         const size_t count = collect(patch, grid, marks);
-        findKernel(x_.data(), y_.data(), z_.data(), radius_.data(), count, patch.x, patch.y, patch.z,
-                   patch.limit, patch.count, found_.data());
+        findKernel({x_.data(), y_.data(), z_.data(), radius_.data(), count},
+                   {patch.x, patch.y, patch.z, patch.limit, patch.count}, found_.data());
         for (size_t k = 0; k < count; ++k) {
             marks[slot_[k]] = found_[k] != 0 ? 1 : 0;
         }

@@ -5,6 +5,7 @@
 
 #include "engine/contact/cell_sort.h"
 #include "engine/contact/host_fixtures.h"
+#include "engine/contact/sphere_span.h"
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,10 @@ public:
     std::span<const float> z() const { return z_; }
     std::span<const float> radius() const { return radius_; }
     std::span<const uint32_t> order() const { return order_; } // slot -> index into the input of build()
+    // Slots [begin, begin + count).
+    SphereSpan run(size_t begin, size_t count) const {
+        return {x_.data() + begin, y_.data() + begin, z_.data() + begin, radius_.data() + begin, count};
+    }
 
 private:
     // Monotone in v, and the same function for spheres and query boxes, so rounding cannot lose a sphere.

@@ -38,7 +38,7 @@ bool comesBefore(const SmallestGap& a, const SmallestGap& b) noexcept {
 }
 
 double gapBetween(const glm::dvec4& leaf, const glm::vec4& sphere) noexcept {
-    return exactGap(leaf.x, leaf.y, leaf.z, leaf.w, sphere.x, sphere.y, sphere.z, sphere.w);
+    return exactGap({dvec3(leaf), leaf.w}, sphere.x, sphere.y, sphere.z, sphere.w);
 }
 
 glm::dvec4 leafAt(const Sphere& leaf, const Pose& baseTtool, const dvec3& origin) noexcept {

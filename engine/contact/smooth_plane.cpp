@@ -23,65 +23,60 @@ struct PatchBlock {
     alignas(64) std::array<double, kSize> x, y, z, weight;
 };
 
-// Weighted directions from the spheres to the centre, zero for spheres that are not in the patch. n: normal
-// of the nearest sphere. agree [1/m]: how fast the weight grows away from kOtherSurface and kOpposite.
+// Weighted directions from the spheres to the leaf, zero for spheres that are not in the patch. nearest: of
+// the nearest sphere. agree [1/m]: how fast the weight grows away from kOtherSurface and kOpposite.
 FATHOM_CLONES
-void weighKernel(const float* __restrict sx, const float* __restrict sy, const float* __restrict sz,
-                 const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                 double nearest, double nx, double ny, double nz, double agree, double depth,
-                 double* __restrict toX, double* __restrict toY, double* __restrict toZ,
-                 double* __restrict weights) noexcept {
-    for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(sx[k]);
-        const double dy = cy - static_cast<double>(sy[k]);
-        const double dz = cz - static_cast<double>(sz[k]);
-        const double touch = r + static_cast<double>(radius[k]), farthest = touch + nearest + depth;
+void weighKernel(SphereSpan run, Sphere leaf, SmoothPlane nearest, double depth, double agree,
+                 PatchBlock& block) noexcept {
+    const dvec3 c = leaf.centre, n = nearest.normal;
+    for (size_t k = 0; k < run.count; ++k) {
+        const double dx = c.x - static_cast<double>(run.x[k]);
+        const double dy = c.y - static_cast<double>(run.y[k]);
+        const double dz = c.z - static_cast<double>(run.z[k]);
+        const double touch = leaf.radius + static_cast<double>(run.radius[k]);
+        const double farthest = touch + nearest.gap + depth;
         const double square = dx * dx + dy * dy + dz * dz;
         const double inside =
             square < farthest * farthest ? 1.0 : 0.0; // a factor, because branches do not vectorise
-        const double length = std::sqrt(square), share = 1.0 - (length - touch - nearest) / depth;
-        const double along = nx * dx + ny * dy + nz * dz;
+        const double length = std::sqrt(square), share = 1.0 - (length - touch - nearest.gap) / depth;
+        const double along = n.x * dx + n.y * dy + n.z * dz;
         const double counts = std::max(along - kOtherSurface * length, kOpposite * length - along) * agree;
         const double part = std::min(1.0, std::max(0.0, counts)); // no rounding where that is 1
         const double weight = share * share * inside * part, scale = weight / length;
-        toX[k] = scale * dx;
-        toY[k] = scale * dy;
-        toZ[k] = scale * dz;
-        weights[k] = weight;
+        block.x[k] = scale * dx;
+        block.y[k] = scale * dy;
+        block.z[k] = scale * dz;
+        block.weight[k] = weight;
     }
 }
 
-// Height of the centre over the tangent of each sphere of the patch that is parallel to the plane; infinity
-// for the others.
+// Height of the leaf's centre over the tangent of each sphere of the patch that is parallel to the plane with
+// this normal; infinity for the others. nearest [m]: gap of the nearest sphere.
 FATHOM_CLONES
-void heightKernel(const float* __restrict sx, const float* __restrict sy, const float* __restrict sz,
-                  const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                  double nearest, double nx, double ny, double nz, double depth,
+void heightKernel(SphereSpan run, Sphere leaf, double nearest, dvec3 normal, double depth,
                   double* __restrict heights) noexcept {
-    for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(sx[k]);
-        const double dy = cy - static_cast<double>(sy[k]);
-        const double dz = cz - static_cast<double>(sz[k]);
-        const double touch = r + static_cast<double>(radius[k]), farthest = touch + nearest + depth;
+    for (size_t k = 0; k < run.count; ++k) {
+        const double dx = leaf.centre.x - static_cast<double>(run.x[k]);
+        const double dy = leaf.centre.y - static_cast<double>(run.y[k]);
+        const double dz = leaf.centre.z - static_cast<double>(run.z[k]);
+        const double touch = leaf.radius + static_cast<double>(run.radius[k]);
+        const double farthest = touch + nearest + depth;
         const double square = dx * dx + dy * dy + dz * dz;
         const double outside = square < farthest * farthest ? 0.0 : kOffPlane;
-        heights[k] = nx * dx + ny * dy + nz * dz - touch + outside;
+        heights[k] = normal.x * dx + normal.y * dy + normal.z * dz - touch + outside;
     }
 }
 
 // Mean normal of the spheres of the patch, weighted so that a sphere enters with weight 0. False when it is
 // no direction, and when a sphere that counts is nearer.
-bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
-                double depth, double agree, dvec3& normal) noexcept {
-    const dvec3& n = nearest.normal;
+bool meanNormal(const SphereSpan& run, const Sphere& leaf, const SmoothPlane& nearest, double depth,
+                double agree, dvec3& normal) noexcept {
     dvec3 sum(0.0);
     double weights = 0.0, most = 0.0;
     for (size_t begin = 0; begin < run.count; begin += PatchBlock::kSize) {
         PatchBlock block;
-        const PairArrays some = part(run, begin, PatchBlock::kSize);
-        weighKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z, leafRadius,
-                    nearest.gap, n.x, n.y, n.z, agree, depth, block.x.data(), block.y.data(), block.z.data(),
-                    block.weight.data());
+        const SphereSpan some = part(run, begin, PatchBlock::kSize);
+        weighKernel(some, leaf, nearest, depth, agree, block);
         for (size_t k = 0; k < some.count; ++k) {
             sum += dvec3(block.x[k], block.y[k], block.z[k]);
             weights += block.weight[k];
@@ -95,25 +90,23 @@ bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, c
 
 } // namespace
 
-bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
-                 double depth, SmoothPlane& plane) noexcept {
+bool smoothPlane(const SphereSpan& run, const Sphere& leaf, const SmoothPlane& nearest, double depth,
+                 SmoothPlane& plane) noexcept {
     const double agree = 0.5 * kAgree * kPatch * kPatch / depth; // kAgree / (R + r) of the nearest, or more
-    if (!meanNormal(run, centre, leafRadius, nearest, depth, agree, plane.normal)) {
+    if (!meanNormal(run, leaf, nearest, depth, agree, plane.normal)) {
         return false;
     }
     plane.gap = kOffPlane;
     for (size_t begin = 0; begin < run.count; begin += PatchBlock::kSize) {
         alignas(64) std::array<double, PatchBlock::kSize> heights;
-        const PairArrays some = part(run, begin, PatchBlock::kSize);
-        heightKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z,
-                     leafRadius, nearest.gap, plane.normal.x, plane.normal.y, plane.normal.z, depth,
-                     heights.data());
+        const SphereSpan some = part(run, begin, PatchBlock::kSize);
+        heightKernel(some, leaf, nearest.gap, plane.normal, depth, heights.data());
         for (size_t k = 0; k < some.count; ++k) {
             if (heights[k] > plane.gap + kRounding || !(heights[k] < kOffPlane)) {
                 continue; // the bend only raises it
             }
-            const dvec3 delta = awayFrom(some, k, centre);
-            const double touch = leafRadius + static_cast<double>(some.radius[k]);
+            const dvec3 delta = awayFrom(some, k, leaf.centre);
+            const double touch = leaf.radius + static_cast<double>(some.radius[k]);
             const double height = glm::dot(plane.normal, delta);
             const double aside = glm::dot(delta, delta) - height * height, patch = 2.0 * touch * depth;
             if (aside < patch) {

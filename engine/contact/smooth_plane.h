@@ -25,12 +25,12 @@ inline constexpr double kBend = 0.01;
 inline constexpr double kOtherSurface = 0.70710678118654752,
                         kOpposite = -0.4; // beyond this one they count again
 
-// Plane for a leaf at `centre` over the surface whose nearest sphere has this tangent, at a gap >= 0. run:
-// pairs of the leaf, complete up to that gap + depth. False where a sphere that counts is nearer, and where
+// Plane for a leaf over the surface whose nearest sphere has this tangent, at a gap >= 0. run: pairs of the
+// leaf, complete up to that gap + depth. False where a sphere that counts is nearer, and where
 // there is no plane outside of the nearest sphere, as at an edge; the spheres' own rows then suffice.
 // Identical bits everywhere.
-bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
-                 double depth, SmoothPlane& plane) noexcept;
+bool smoothPlane(const SphereSpan& run, const Sphere& leaf, const SmoothPlane& nearest, double depth,
+                 SmoothPlane& plane) noexcept;
 
 // [m] how much farther than the nearest the spheres of a patch may be; reach = R + r of the nearest.
 constexpr double patchDepth(double reach) noexcept {

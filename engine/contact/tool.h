@@ -33,6 +33,7 @@ private:
 // values.
 struct PosedLeaves {
     std::vector<float> x, y, z, radius; // [m]
+    glm::vec3 centre(size_t leaf) const { return {x[leaf], y[leaf], z[leaf]}; }
 };
 void poseLeaves(const Tool& tool, const Pose& baseTtool, const dvec3& origin, PosedLeaves& out);
 

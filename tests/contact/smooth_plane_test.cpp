@@ -16,7 +16,7 @@ constexpr double kLeaf = 0.01, kBall = 0.04, kTouch = kLeaf + kBall; // [m]
 struct Patch {
     RegionSpheres spheres;
 
-    PairArrays run() const {
+    SphereSpan run() const {
         return {spheres.x.data(), spheres.y.data(), spheres.z.data(), spheres.radius.data(),
                 spheres.x.size()};
     }
@@ -24,7 +24,7 @@ struct Patch {
     SmoothPlane tangent(const dvec3& leaf, const dvec3& side = dvec3(0.0)) const {
         SmoothPlane least{side, HUGE_VAL};
         for (size_t k = 0; k < spheres.x.size(); ++k) {
-            const double gap = gapOf(run(), k, leaf, kLeaf);
+            const double gap = gapOf(run(), k, {leaf, kLeaf});
             const dvec3 normal = glm::normalize(awayFrom(run(), k, leaf));
             if (gap < least.gap && (side == dvec3(0.0) || glm::dot(normal, side) > 0.8)) {
                 least = {normal, gap};
@@ -36,7 +36,7 @@ struct Patch {
     bool plane(const dvec3& leaf, SmoothPlane& out, const dvec3& side = dvec3(0.0)) const {
         SmoothPlane near = tangent(leaf, side);
         near.gap = std::max(0.0, near.gap);
-        return smoothPlane(run(), leaf, kLeaf, near, patchDepth(kTouch), out);
+        return smoothPlane(run(), {leaf, kLeaf}, near, patchDepth(kTouch), out);
     }
 };
 
@@ -124,7 +124,7 @@ TEST_CASE("In a corner each wall has the plane that it would have alone, and wha
     CHECK(plane.gap == doctest::Approx(1e-4).epsilon(0.05));
     SmoothPlane farther = corner.tangent(leaf, z);
     farther.gap += 1e-4; // spheres of the same wall are nearer
-    CHECK_FALSE(smoothPlane(corner.run(), leaf, kLeaf, farther, patchDepth(kTouch), plane));
+    CHECK_FALSE(smoothPlane(corner.run(), {leaf, kLeaf}, farther, patchDepth(kTouch), plane));
 }
 
 TEST_CASE("One sphere alone and two opposite ones give no plane") {
