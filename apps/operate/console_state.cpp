@@ -31,6 +31,21 @@ json timeLineOf(const TimeLine& line) {
             {"whole_memory", line.wholeMemory}};
 }
 
+json recordedOf(const Console& c) {
+    return {{"seconds", c.status.recorded.seconds},
+            {"bytes", c.status.recorded.bytes},
+            {"left", c.status.recorded.left ? json(*c.status.recorded.left) : json(nullptr)}};
+}
+
+json pickedPartsOf(const Console& c) {
+    return {{"only_clicked", c.pick.rules.onlyClicked},
+            {"no_specks", c.pick.rules.noSpecks},
+            {"parts", c.pick.found.parts},
+            {"taken", c.pick.found.taken},
+            {"specks", c.pick.found.specks},
+            {"others", c.pick.found.others}};
+}
+
 } // namespace
 
 nlohmann::json stateOf(const Console& c) {
@@ -44,10 +59,7 @@ nlohmann::json stateOf(const Console& c) {
             {"recording", c.switches.recording},
             {"kept_s", c.status.keptSeconds},
             {"choices", c.openCard.on ? json(c.openCard.choices) : json::array()},
-            {"recorded",
-             {{"seconds", c.status.recorded.seconds},
-              {"bytes", c.status.recorded.bytes},
-              {"left", c.status.recorded.left ? json(*c.status.recorded.left) : json(nullptr)}}},
+            {"recorded", recordedOf(c)},
             {"tree_level", c.settings.treeLevel},
             {"text_scale", c.settings.textScale},
             {"monitor_scale", c.status.monitorScale},
@@ -61,13 +73,7 @@ nlohmann::json stateOf(const Console& c) {
             {"picking", c.pick.active},
             {"picked", c.pick.taken},
             {"pick_warnings", c.pick.warnings},
-            {"pick_parts",
-             {{"only_clicked", c.pick.rules.onlyClicked},
-              {"no_specks", c.pick.rules.noSpecks},
-              {"parts", c.pick.found.parts},
-              {"taken", c.pick.found.taken},
-              {"specks", c.pick.found.specks},
-              {"others", c.pick.found.others}}},
+            {"pick_parts", pickedPartsOf(c)},
             {"renaming", c.editing.renamed},
             {"notice", c.messages.notice},
             {"tones", c.settings.tones},

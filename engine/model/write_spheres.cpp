@@ -44,6 +44,12 @@ std::string collisionsOf(const LinkSpheres& set, const std::string& name = "") {
     return out;
 }
 
+[[noreturn]] void refuseWithoutLink(const std::string& link) {
+    throw BadInput("URDF", "link " + excerpt(printable(link)),
+                   "has spheres, but is not in the text, or is empty (<link/>)",
+                   "a URDF with this <link> in <robot>");
+}
+
 } // namespace
 
 std::string curoboText(std::span<const LinkSpheres> sets) {
@@ -107,9 +113,7 @@ std::string spherizedText(const std::string& urdf, std::span<const LinkSpheres> 
         }
     }
     if (!byLink.empty()) {
-        throw BadInput("URDF", "link " + excerpt(printable(byLink.begin()->first)),
-                       "has spheres, but is not in the text, or is empty (<link/>)",
-                       "a URDF with this <link> in <robot>");
+        refuseWithoutLink(byLink.begin()->first);
     }
     return out;
 }
