@@ -58,7 +58,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Q", "acknowledge alarms"},
         KeyHelp{"M", "tones on or off: contact, limit, old image, lost device"},
         KeyHelp{"R", "start or stop recording"},
-        KeyHelp{"L", "store the last 30 s, which are always kept, as a recording"},
+        KeyHelp{"L", "store the seconds that are kept, up to 30, as a recording"},
         KeyHelp{"N", "mark this moment in the recording; the time line shows it"},
         KeyHelp{"in a recording",
                 "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed; comma, "
