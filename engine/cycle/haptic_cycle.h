@@ -50,9 +50,9 @@ public:
         tool_.setShapes(shapes);
     }
 
-    const Pose& pose() const { return tool_.pose(); }     // base_T_tool
-    const Pose& handle() const { return hand_.handle(); } // raw pose of the hand, last good sample
-    ToolPlace place() const { return tool_.place(); }     // pose and, on an arm, posture
+    const Pose& pose() const noexcept { return tool_.pose(); }     // base_T_tool
+    const Pose& handle() const noexcept { return hand_.handle(); } // raw pose of the hand, last good sample
+    ToolPlace place() const noexcept { return tool_.place(); }     // pose and, on an arm, posture
     // Of the next contact query: ahead of place() when answers are late. A pressed arm queries farther,
     // to distinguish a surface that moved back from one that vanished.
     QueryPlace queryPlace() const noexcept {
@@ -60,12 +60,13 @@ public:
         next.extraReach += std::min(pressed_.behindHand(tool_, hand_.springEnd()), QueryAhead::kMaxReach);
         return next;
     }
-    bool onArm() const { return tool_.onArm(); }
+    bool onArm() const noexcept { return tool_.onArm(); }
     // active springs: those of the options, or softer ones while ticks are slow
-    const Springs& springs() const { return watch_.springs(); }
-    const PassivityController& passivity() const { return stage_.passivity(); }
-    const HapticOptions& options() const { return options_; }
-    uint64_t notFinite() const { return stage_.notFinite(); } // steps with a number that is not finite
+    const Springs& springs() const noexcept { return watch_.springs(); }
+    const PassivityController& passivity() const noexcept { return stage_.passivity(); }
+    const HapticOptions& options() const noexcept { return options_; }
+    // Steps with a number that is not finite.
+    uint64_t notFinite() const noexcept { return stage_.notFinite(); }
 
     static constexpr double kRampTime = ForceRamps::kRampTime;
 

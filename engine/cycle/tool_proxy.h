@@ -40,7 +40,7 @@ public:
 
     const Pose& pose() const noexcept { return pose_; }
     // Pose and, on an arm, posture.
-    ToolPlace place() const { return {pose_, arm_ ? arm_->posture() : ArmPosture{}}; }
+    ToolPlace place() const noexcept { return {pose_, arm_ ? arm_->posture() : ArmPosture{}}; }
     bool onArm() const noexcept { return arm_.has_value(); }
     size_t jointCount() const noexcept { return arm_ ? setup_->model.count() : 0; } // 0 = free tool
     // The arm leaves the tool's direction free.
