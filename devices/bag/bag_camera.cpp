@@ -2,6 +2,7 @@
 #include "devices/bag/bag_camera.h"
 
 #include "devices/bag/image_faults.h"
+#include "devices/bag/stream_chooser.h"
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Poses of StreamChooser between depth and colour that are not registered.
-#include "devices/bag/stream_choice.h"
+#include "devices/bag/stream_poses.h"
 
-#include "devices/recorded/lens_model.h"
-#include "devices/recorded/recording_extrinsics.h"
-#include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 #include "engine/types/printed.h"
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace fathom {
 
 namespace {
-
-bool isIdentity(const Pose& pose) {
-    return glm::length(pose.position) < 1e-9 && std::abs(std::abs(pose.rotation.w) - 1.0) < 1e-12;
-}
 
 double turnBetween(const Pose& a, const Pose& b) {
     return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation))));
@@ -29,53 +22,45 @@ bool nearlySame(const Pose& a, const Pose& b) {
     return glm::distance(a.position, b.position) <= kMaxApart && turnBetween(a, b) <= kMaxTurned;
 }
 
+std::string poseDifference(const Pose& a, const Pose& b) {
+    return printed("%.1f mm and %.2f degrees", 1e3 * glm::distance(a.position, b.position),
+                   glm::degrees(turnBetween(a, b)));
+}
+
+// Those that are not empty.
+std::string allWarnings(std::initializer_list<std::string> warnings) {
+    std::string all;
+    for (const std::string& one : warnings) {
+        all += (all.empty() || one.empty() ? "" : "; ") + one;
+    }
+    return all;
+}
+
 } // namespace
 
-StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
+bool sharesFrame(const ImageStream& depth, const ImageStream& colour) {
+    const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name); // its frames are all "0"
+    return !sdk && depth.frame == colour.frame &&
+           (!depth.frame.empty() || namedOneCamera(depth.name, colour.name));
+}
+
+FoundPose StreamPoses::between(const ImageStream& depth, const ImageStream& colour) {
     FoundPose found = sdkPose(depth, colour);
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!found.pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
         found = driverPose(depth, colour);
     }
-    if (found.pose) {
-        const bool registered = isIdentity(*found.pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *found.pose, "", found.warning, found.source};
-    }
-    const std::string topic = isRealSenseTopic(depth.name)
-                                  ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
-                                  : "tf_static between the frames, .../extrinsics/depth_to_color";
-    return {0,
-            false,
-            {},
-            "extrinsics: " + (found.warning.empty() ? "missing" : found.warning) +
-                " (allowed: depth registered to colour (same frame and lens), or the topic " + topic +
-                ", or extrinsics=FILE or colour=none after the file name)"};
+    return found;
 }
 
-// A pose that lenses of one rig do not have: beyond the bounds of any camera colour is unrelated to depth.
-void StreamChooser::doubtRig(Relation& relation, bool warns) {
-    const std::optional<RigFault> fault = rigFault(relation.colourTdepth);
-    if (!fault) {
-        return;
-    }
-    std::string words = relation.source + ": " + fault->value + " (allowed: " + fault->allowed;
-    if (!(glm::length(relation.colourTdepth.position) <= kFarthestColour)) {
-        words += "; or extrinsics=FILE or colour=none after the file name)";
-        relation = {0, false, {}, "extrinsics: " + words};
-        return;
-    }
-    if (!warns) {
-        return;
-    }
-    words += "): regions by colour are lost if this is wrong; extrinsics=FILE or colour=none after the file "
-             "name";
-    relation.warning += (relation.warning.empty() ? "" : "; ") + words;
+std::optional<Pose> StreamPoses::byFrames(const ImageStream& depth, const ImageStream& colour) {
+    return frames_.pose(depth.frame, colour.frame);
 }
 
 // By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse
 // of the topic; tf tells.
-StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, const ImageStream& colour) {
+FoundPose StreamPoses::driverPose(const ImageStream& depth, const ImageStream& colour) {
     const MessageTopic* source = poseTopic(depth, colour);
     if (sharesFrame(depth, colour) && !depth.frame.empty()) { // the topic is that of depth in its own frame
         return source == nullptr ? FoundPose{}
@@ -85,7 +70,7 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
     std::string fault;
     const auto topic = topicPose(source, fault);
     const std::string tf = "tf between '" + depth.frame + "' and '" + colour.frame + "'";
-    const auto frames = depth.frame != colour.frame ? frames_.pose(depth.frame, colour.frame) : std::nullopt;
+    const auto frames = depth.frame != colour.frame ? byFrames(depth, colour) : std::nullopt;
     const std::string axes = frames ? frames_.axesWarning(depth.frame, colour.frame) : "";
     if (!frames) {
         const std::string moving = topic ? "" : frames_.whyMoving(depth.frame, colour.frame);
@@ -96,12 +81,10 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
                 topic ? source->name : ""};
     }
     if (!topic) {
-        std::string all;
-        for (const std::string& one : {fault.empty() ? "" : fault + ": tf is used", axes,
-                                       frames_.twicePublished(depth.frame, colour.frame)}) {
-            all += (all.empty() || one.empty() ? "" : "; ") + one;
-        }
-        return {frames, all, tf};
+        return {frames,
+                allWarnings({fault.empty() ? "" : fault + ": tf is used", axes,
+                             frames_.twicePublished(depth.frame, colour.frame)}),
+                tf};
     }
     if (nearlySame(*topic, *frames) || !axes.empty()) {
         return {topic, "", source->name};
@@ -109,17 +92,14 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
     if (nearlySame(inverse(*topic), *frames)) {
         return {frames, "", tf};
     }
-    const std::string apart =
-        printed("%.1f mm and %.2f degrees", 1e3 * glm::distance(topic->position, frames->position),
-                glm::degrees(turnBetween(*topic, *frames)));
     return {topic,
-            "the driver's topic depth_to_color, which is used, and " + tf + " differ by " + apart +
-                "; extrinsics=FILE after the file name decides",
+            "the driver's topic depth_to_color, which is used, and " + tf + " differ by " +
+                poseDifference(*topic, *frames) + "; extrinsics=FILE after the file name decides",
             source->name};
 }
 
 // Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
-StreamChooser::FoundPose StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
+FoundPose StreamPoses::sdkPose(const ImageStream& depth, const ImageStream& colour) {
     if (!isRealSenseTopic(depth.name) || !isRealSenseTopic(colour.name)) {
         return {};
     }
@@ -140,7 +120,7 @@ StreamChooser::FoundPose StreamChooser::sdkPose(const ImageStream& depth, const 
 
 // The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both;
 // null: there is none.
-const MessageTopic* StreamChooser::poseTopic(const ImageStream& depth, const ImageStream& colour) const {
+const MessageTopic* StreamPoses::poseTopic(const ImageStream& depth, const ImageStream& colour) const {
     const MessageTopic* best = nullptr;
     for (const MessageTopic& topic : file_.topics()) {
         if (topic.type.ends_with("/Extrinsics") && namedExtrinsicsOf(topic.name, depth.name, colour.name) &&
@@ -151,7 +131,7 @@ const MessageTopic* StreamChooser::poseTopic(const ImageStream& depth, const Ima
     return best;
 }
 
-std::optional<Pose> StreamChooser::topicPose(const MessageTopic* topic, std::string& fault) {
+std::optional<Pose> StreamPoses::topicPose(const MessageTopic* topic, std::string& fault) {
     if (topic == nullptr) {
         return std::nullopt;
     }

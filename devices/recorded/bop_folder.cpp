@@ -79,7 +79,7 @@ RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::strin
     return intrinsics;
 }
 
-double unitOf(const BopImage& image, const std::string& file) {
+double metresPerUnitOf(const BopImage& image, const std::string& file) {
     const double unit = 1e-3 * image.unit;
     if (unit < kFinestUnit || unit > kCoarsestUnit) {
         throw BadInput(file, "depth_scale", significant(image.unit, 6), "millimetres per unit, 0.001 to 100");
@@ -115,7 +115,7 @@ RecordingLayout readBop(const LayoutRequest& request) {
     }
     layout.intrinsics =
         request.lens ? *request.lens : lensOf(*first, firstDepthSize(layout.index), file.string());
-    const auto unit = [&] { return unitOf(*first, file.string()); };
+    const auto unit = [&] { return metresPerUnitOf(*first, file.string()); };
     if (request.lens) {
         keepRecordedUnit(layout.intrinsics, file.filename().string(), unit);
     } else {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the streams of ros2_camera.h and their lenses.
+#include "devices/bag/stream_chooser.h"
 #include "devices/images/metre_units.h"
 #include "devices/ros2/ros2_camera.h"
 #include "engine/types/clock.h"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenses of StreamChooser that a file gives instead of the recording.
-#include "devices/bag/stream_choice.h"
+#include "devices/bag/given_lenses.h"
 
+#include "devices/bag/stream_choice.h"
+#include "devices/bag/stream_poses.h"
 #include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
@@ -13,25 +14,14 @@
 
 namespace fathom {
 
-// Whether the recording relates depth and colour: a file of one lens alone says nothing about it.
-bool StreamChooser::keepsRelation() const {
+bool GivenLenses::keepsRelation() const {
     if (options_.intrinsics.empty()) {
         return true;
     }
     return !readIntrinsics(options_.intrinsics, ScaleRule::Unchecked).relatesColour;
 }
 
-// Of depth without a recorded lens, whose lens a file gives.
-StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, const ImageStream& colour) {
-    const Relation registered{1, true, {}, ""};
-    if (!keepsRelation()) {
-        return registered; // the file says the rest
-    }
-    const bool sameFrame = sharesFrame(depth, colour);
-    if (!colour.lens) {
-        const bool unnamed = depth.frame.empty() || colour.frame.empty();
-        return sameFrame || unnamed || !options_.extrinsics.empty() ? registered : Relation{};
-    }
+ImageStream GivenLenses::withLens(const ImageStream& depth, const ImageStream& colour) const {
     ImageStream given = depth;
     given.lens = readIntrinsics(options_.intrinsics, ScaleRule::Unchecked).camera.depth;
     given.raw = *given.lens;
@@ -40,15 +30,15 @@ StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, con
     const double x = given.lens->fx / colour.lens->fx, y = given.lens->fy / colour.lens->fy;
     const bool alike = depth.width == colour.width && depth.height == colour.height &&
                        std::max(std::abs(x - 1.0), std::abs(y - 1.0)) <= kMaxOther;
-    if (alike && (sameFrame || namedRegistered(depth.name))) {
+    if (alike && (sharesFrame(depth, colour) || namedRegistered(depth.name))) {
         given.lens = colour.lens;
         given.raw = colour.raw;
         given.rectified = colour.rectified;
     }
-    return relate(given, colour);
+    return given;
 }
 
-void StreamChooser::replaceLenses(StreamChoice& choice) const {
+void GivenLenses::replaceIn(StreamChoice& choice) const {
     const auto rule = choice.depth.metres || options_.scale ? ScaleRule::Unchecked : ScaleRule::Optional;
     const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, rule);
     const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
@@ -79,16 +69,6 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
         choice.camera.registered = false;
         choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
     }
-}
-
-void StreamChooser::refuseRelation(const ImageStream& depth, const ImageStream& colour,
-                                   const Relation& relation) const {
-    if (options_.intrinsics.empty()) {
-        throw BadInput(file_.file().string() + ": " + relation.fault);
-    }
-    throw BadInput(options_.intrinsics.string(), "color", "missing",
-                   "blocks depth and color, or registered_to_color: true, as the recording does not relate " +
-                       depth.name + " and " + colour.name + "; or colour=none after its name");
 }
 
 } // namespace fathom
