@@ -43,7 +43,6 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
 }
 
 void BagCamera::logWarnings() {
-    std::erase(choice_.warnings, "");
     std::ranges::copy(lensWarnings(choice_.camera), std::back_inserter(choice_.warnings));
     for (const std::string& warning : choice_.warnings) {
         log::warn("{}: {}", file_->file().string(), warning);

@@ -42,6 +42,7 @@ StreamChoice StreamChooser::choose() {
     }
     const StreamDescription description(file_, options_, candidates_.streams());
     description.addWarnings(choice);
+    std::erase(choice.warnings, "");
     choice.camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = description.unread();
     choice.summary = description.summary(choice);
