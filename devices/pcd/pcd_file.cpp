@@ -24,6 +24,7 @@ namespace {
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr size_t kMaxBytes = size_t{1} << 30;
 constexpr size_t kMaxBytesOfPoint = 4096;
+constexpr size_t kMaxLzfRatio = 88; // a match of three bytes unpacks to at most 264
 
 struct Header {
     std::vector<PcdField> fields;
@@ -146,8 +147,23 @@ Header readHeader(Source& source) {
     return header;
 }
 
+// Checked before memory is allocated for what the header states. Each value takes a character and, unless it
+// is the last one, a separator.
+void checkAsciiSize(const Source& source, const Header& header) {
+    size_t values = 0;
+    for (const PcdField& field : header.fields) {
+        values += field.count * header.width * header.height;
+    }
+    const size_t bytes = source.bytes.size() - source.at, least = 2 * values - 1;
+    if (bytes < least) {
+        source.refuse("DATA", std::to_string(bytes) + " bytes",
+                      "at least " + std::to_string(least) + ": WIDTH x HEIGHT points");
+    }
+}
+
 // Converts ASCII values to the bytes of a binary file.
 std::vector<uint8_t> readAscii(Source& source, const Header& header) {
+    checkAsciiSize(source, header);
     const std::string text(source.bytes.begin() + static_cast<long>(source.at), source.bytes.end());
     std::istringstream in(text);
     std::vector<uint8_t> out(header.bytes * header.width * header.height, 0);
@@ -178,9 +194,10 @@ std::vector<uint8_t> readCompressed(const Source& source, const Header& header) 
     }
     std::memcpy(&packed, source.bytes.data() + source.at, 4);
     std::memcpy(&unpacked, source.bytes.data() + source.at + 4, 4);
-    std::vector<uint8_t> columns(wanted);
-    if (unpacked != wanted || packed > source.bytes.size() - source.at - 8 ||
-        !unpackLzf({source.bytes.data() + source.at + 8, packed}, columns)) {
+    const bool possible = unpacked == wanted && packed <= source.bytes.size() - source.at - 8 &&
+                          wanted <= packed * kMaxLzfRatio;
+    std::vector<uint8_t> columns(possible ? wanted : 0); // no memory for what only a header states
+    if (!possible || !unpackLzf({source.bytes.data() + source.at + 8, packed}, columns)) {
         source.refuse("DATA", std::to_string(unpacked) + " bytes unpacked",
                       std::to_string(wanted) + ", undamaged");
     }
