@@ -148,7 +148,7 @@ vec4 depthsAt(uvec2 at) {
         if (kKeep != 0 && inside) {
             keptDepth[pixel >> 2] = uvec2(raw.x | raw.y << 16, raw.z | raw.w << 16);
         }
-        return vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+        return metresOfFour(raw);
     }
     [[unroll]] for (uint k = 0; k < 4u; ++k) {
         z[k] = at.x + k < depthWidth() ? depthAt(pixel + k) : 0.0;
@@ -222,9 +222,7 @@ void mark(uint patchIndex, uint bits) {
     }
     uint fresh = bits & ~atomicOr(listed[patchIndex], bits);
     if (kLists != 0 && (fresh & kPatchListed) != 0) {
-        uint place = atomicAdd(counters.patchGroups.x, 1u);
-        list[place] = patchIndex;
-        atomicMax(counters.subPatchGroups.x, groupsUpTo(place, kSubPatchGroup));
+        appendListed(patchIndex);
         if (kHold != 0 && memoryCounts[patchIndex] >> 16 != 0) {
             atomicOr(listed[patchIndex], kPatchHolding);
         }

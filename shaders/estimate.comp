@@ -37,8 +37,7 @@ vec4 fourDepths(uvec2 at) {
     uint pixel = beyond ? 0u : at.y * depthWidth() + at.x;
     vec4 z;
     if (kFour != 0) {
-        uvec4 raw = texelFetch(depths, int(pixel >> 2));
-        z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+        z = metresOfFour(texelFetch(depths, int(pixel >> 2)));
     } else {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
             z[k] = at.x + k < depthWidth() ? depthAt(pixel + k) : 0.0;

@@ -47,9 +47,7 @@ void main() {
         listed[patchIndex] = bits;
     }
     if ((bits & kPatchListed) != 0) {
-        uint place = atomicAdd(counters.patchGroups.x, 1u);
-        list[place] = patchIndex;
-        atomicMax(counters.subPatchGroups.x, groupsUpTo(place, kSubPatchGroup));
+        appendListed(patchIndex);
         if (kHold != 0) {
             putByMemory(patchIndex, patches);
         }

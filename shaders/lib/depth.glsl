@@ -10,6 +10,11 @@ float metresOf(uint raw) {
     return all(bvec2(raw >= smallestRaw(), raw <= largestRaw())) ? float(raw) * metresPerUnit() : 0.0;
 }
 
+// The same for the four pixels of a texel (kFour).
+vec4 metresOfFour(uvec4 raw) {
+    return vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+}
+
 float depthAt(uint pixel) {
     return metresOf(rawDepth(pixel));
 }

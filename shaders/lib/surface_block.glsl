@@ -15,7 +15,7 @@ vec4 fourDepths(ivec2 q) {
     }
     bool beyond = outside(q); // then all four pixels are
     uvec4 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * depthWidth() + uint(q.x)) >> 2));
-    vec4 z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+    vec4 z = metresOfFour(raw);
     return beyond ? vec4(0.0) : z;
 }
 
