@@ -215,7 +215,8 @@ Place placeOf() {
     return Place(gl_WorkGroupID.y * patchesAcross() + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
 }
 
-// Adds newly marked patches to the lists.
+// Adds newly marked patches to the lists. The first load races with the atomics of other invocations: bits
+// are only set during this pass, so a stale value costs an atomicOr that sets nothing new.
 void mark(uint patchIndex, uint bits) {
     if ((listed[patchIndex] & bits) == bits) {
         return;
