@@ -2,6 +2,7 @@
 #include "apps/binding/ros2_output.h"
 
 #include "apps/binding/ros2_topics.h"
+#include "apps/binding/shape_box.h"
 #include "engine/types/log.h"
 #include "engine/types/spsc_queue.h"
 #include "engine/types/triple_buffer.h"
@@ -39,30 +40,6 @@ private:
     std::mutex mutex_;
     std::condition_variable woken_;
     bool rung_ = false, stop_ = false;
-};
-
-// The placed shapes, from any thread to the writer.
-class ShapeBox {
-public:
-    void set(std::span<const Shape> shapes) {
-        const std::lock_guard lock(mutex_);
-        shapes_.assign(shapes.begin(), shapes.end());
-        changed_ = true;
-    }
-    bool changed() {
-        const std::lock_guard lock(mutex_);
-        return changed_;
-    }
-    void copyTo(std::vector<Shape>& out) {
-        const std::lock_guard lock(mutex_);
-        out = shapes_;
-        changed_ = false;
-    }
-
-private:
-    std::mutex mutex_;
-    std::vector<Shape> shapes_;
-    bool changed_ = false;
 };
 
 // The writer thread copies what is due into mailboxes; the thread of this class makes and sends messages.

@@ -113,17 +113,6 @@ void ViewPublisher::forget() noexcept {
     endpoint_.offer(ViewSocket::List<fathom_door_regions>());
 }
 
-void ViewPublisher::setShapes(std::span<const Shape> shapes) {
-    const std::lock_guard lock(mutex_);
-    shapes_.assign(shapes.begin(), shapes.end());
-    shapesChanged_ = true;
-}
-
-bool ViewPublisher::shapesDiffer() {
-    const std::lock_guard lock(mutex_);
-    return shapesChanged_;
-}
-
 void ViewPublisher::offerUpdates() {
     if (!endpoint_.watched()) {
         return;
@@ -133,7 +122,7 @@ void ViewPublisher::offerUpdates() {
         offerRegions();
         offered_ = set_->generation;
     }
-    if (newSet || shapesDiffer()) {
+    if (newSet || newestShapes_.changed()) {
         offerFixtures();
     }
 }
@@ -158,12 +147,9 @@ void ViewPublisher::offerRegions() {
 
 void ViewPublisher::offerFixtures() {
     rows_.clear();
-    {
-        const std::lock_guard lock(mutex_);
-        std::transform(shapes_.begin(), shapes_.end(), std::back_inserter(rows_),
-                       [](const Shape& shape) { return rowOf(shape); });
-        shapesChanged_ = false;
-    }
+    newestShapes_.copyTo(shapes_);
+    std::transform(shapes_.begin(), shapes_.end(), std::back_inserter(rows_),
+                   [](const Shape& shape) { return rowOf(shape); });
     fathom_door_fixtures head{};
     if (set_ != nullptr) {
         std::transform(set_->guidance.begin(), set_->guidance.end(), std::back_inserter(rows_),

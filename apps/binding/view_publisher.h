@@ -3,9 +3,9 @@
 #pragma once
 
 #include "apps/binding/run_observer.h"
+#include "apps/binding/shape_box.h"
 #include "devices/bridge/view_socket.h"
 
-#include <mutex>
 #include <vector>
 
 namespace fathom {
@@ -18,14 +18,13 @@ public:
 
     void step(const TickRow& row) override;
     void frame(const HostFixtures& set) override;
-    void setShapes(std::span<const Shape> shapes) override;
+    void setShapes(std::span<const Shape> shapes) override { newestShapes_.set(shapes); }
     void forget() noexcept override;
 
 private:
     void offerUpdates();
     void offerRegions();
     void offerFixtures();
-    bool shapesDiffer(); // true when the shapes differ from those offered
 
     static constexpr uint32_t kPollEvery = 16; // ticks
 
@@ -35,9 +34,8 @@ private:
     uint32_t ticks_ = 0;
     fathom_door_state state_{};
     std::vector<fathom_door_fixture> rows_;
-    std::mutex mutex_; // guards the two members below
-    std::vector<Shape> shapes_;
-    bool shapesChanged_ = false;
+    std::vector<Shape> shapes_; // those offered last
+    ShapeBox newestShapes_;
 };
 
 } // namespace fathom
