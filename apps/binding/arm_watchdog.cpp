@@ -12,7 +12,6 @@
 #include <cstring>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 
 namespace fathom {
@@ -53,14 +52,9 @@ ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol prot
 ArmWatchdog::~ArmWatchdog() {
     ::send(socket_, &kWatchdogGoodbye, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     ::close(socket_);
-    const auto until = std::chrono::steady_clock::now() + kPatience;
-    while (::waitpid(process_, nullptr, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > until) {
-            ::kill(process_, SIGKILL);
-            ::waitpid(process_, nullptr, 0);
-            return;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!waitForEnd(process_, kPatience)) {
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
     }
 }
 

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 extern char** environ;
@@ -81,6 +83,18 @@ int startOwnProcess(pid_t& process, std::span<const int> files, std::span<const 
                                     const_cast<char* const*>(words.data()), environ);
     ::posix_spawnattr_destroy(&how);
     return fault;
+}
+
+bool waitForEnd(pid_t process, std::chrono::milliseconds timeout) noexcept {
+    constexpr auto kPollPeriod = std::chrono::milliseconds(1);
+    const auto until = std::chrono::steady_clock::now() + timeout;
+    while (::waitpid(process, nullptr, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > until) {
+            return false;
+        }
+        std::this_thread::sleep_for(kPollPeriod);
+    }
+    return true;
 }
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 // Starts this program again as a separate process for one task.
 #pragma once
 
+#include <chrono>
 #include <span>
 #include <sys/types.h>
 
@@ -15,5 +16,8 @@ inline constexpr int kNullDevice = -2; // means /dev/null in a list of descripto
 // default signals, so Ctrl-C and a closed terminal only reach the engine. Returns an errno value, 0 when
 // `process` runs.
 int startOwnProcess(pid_t& process, std::span<const int> files, std::span<const char* const> words) noexcept;
+
+// Waits for a child process to end and reaps it, at most for `timeout`. False: it still runs then.
+bool waitForEnd(pid_t process, std::chrono::milliseconds timeout) noexcept;
 
 } // namespace fathom

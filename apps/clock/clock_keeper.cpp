@@ -12,8 +12,6 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <string>
-#include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
 #include <utility>
 
@@ -67,15 +65,9 @@ void ClockKeeper::end() noexcept {
     ::close(std::exchange(answer_, -1));
     held_ = false;
     const pid_t process = std::exchange(process_, -1);
-    const auto until = std::chrono::steady_clock::now() + kExitTimeout;
-    while (process > 0 && ::waitpid(process, nullptr, WNOHANG) == 0) {
-        if (std::chrono::steady_clock::now() > until) {
-            ::kill(process, SIGKILL);
-            std::this_thread::sleep_for(kStep);
-            ::waitpid(process, nullptr, WNOHANG);
-            return;
-        }
-        std::this_thread::sleep_for(kStep);
+    if (process > 0 && !waitForEnd(process, kExitTimeout)) {
+        ::kill(process, SIGKILL);
+        waitForEnd(process, kStep);
     }
 }
 

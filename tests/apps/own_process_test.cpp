@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -91,6 +93,19 @@ TEST_CASE("With standard error closed, the file that reuses its number does not 
         CHECK(has(said, "fd 2: /dev/null"));
         CHECK(said.find("/dev/full") == std::string::npos);
     }
+}
+
+TEST_CASE("Waiting for a child ends when it ends, or after the timeout when it still runs") {
+    const pid_t process = ::fork();
+    REQUIRE(process >= 0);
+    if (process == 0) {
+        ::pause();
+        ::_exit(0);
+    }
+    CHECK_FALSE(waitForEnd(process, std::chrono::milliseconds(20)));
+    ::kill(process, SIGKILL);
+    CHECK(waitForEnd(process, std::chrono::seconds(60)));
+    CHECK(::waitpid(process, nullptr, WNOHANG) == -1); // reaped
 }
 
 TEST_CASE("A closed file, or too many files, start no process") {
