@@ -173,9 +173,7 @@ void LockstepReplay::audit(const TickRow& row) {
         return;
     }
     std::vector<uint32_t> behind;
-    for (const ContactSet::Behind& b : active->behind) {
-        behind.push_back(b.leaf);
-    }
+    active->leavesBehind(behind);
     audit_.tick(obeyed->fixtures, obeyed->grid, row.start, {row.record.tool, row.record.arm.posture}, behind);
 }
 

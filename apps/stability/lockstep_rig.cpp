@@ -100,9 +100,7 @@ const LockstepRig::Published* LockstepRig::published(uint64_t generation) const 
 void LockstepRig::judge(const Pose& before, const StepRecord& record) {
     if (const ContactSet* active = contacts_.active()) {
         std::vector<uint32_t> behind;
-        for (const ContactSet::Behind& flag : active->behind) {
-            behind.push_back(flag.leaf);
-        }
+        active->leavesBehind(behind);
         const Published& obeyed = *published(active->generation);
         audit_.tick(obeyed.set, obeyed.grid, before, record.tool, behind);
     }

@@ -19,4 +19,11 @@ void ContactSet::clear() noexcept {
     }
 }
 
+void ContactSet::leavesBehind(std::vector<uint32_t>& out) const {
+    out.clear();
+    for (const Behind& b : behind) {
+        out.push_back(b.leaf);
+    }
+}
+
 } // namespace fathom

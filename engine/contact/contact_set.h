@@ -52,6 +52,8 @@ struct ContactSet {
 
     // Clears spheres, pairs and flags; keeps the memory and all other fields.
     void clear() noexcept;
+    // Writes the leaves of `behind` to `out`, whose memory it reuses.
+    void leavesBehind(std::vector<uint32_t>& out) const;
     size_t size() const { return x.size(); }
     size_t leafCount() const { return leafAtQuery.size(); }
 

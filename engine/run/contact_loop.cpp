@@ -24,10 +24,7 @@ void ContactLoop::answerOne(const QueryPlace& at) {
     const auto end = Clock::now();
     note_.query = set.query;
     note_.micros = micros(begin, end);
-    note_.behind.clear();
-    for (const ContactSet::Behind& b : set.behind) {
-        note_.behind.push_back(b.leaf);
-    }
+    set.leavesBehind(note_.behind);
     // The note comes first: the writer must know the answer before any step obeys it.
     channels_.queries.push(note_);
     channels_.contacts.publish();
