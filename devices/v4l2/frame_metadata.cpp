@@ -2,13 +2,12 @@
 #include "devices/v4l2/frame_metadata.h"
 
 #include "devices/v4l2/little_endian.h"
+#include "devices/v4l2/video_ioctl.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <fcntl.h>
 #include <linux/videodev2.h>
-#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -17,14 +16,6 @@ namespace fathom {
 namespace fs = std::filesystem;
 
 namespace {
-
-int control(int descriptor, unsigned long request, void* argument) {
-    int result = -1;
-    do {
-        result = ::ioctl(descriptor, request, argument);
-    } while (result < 0 && errno == EINTR);
-    return result;
-}
 
 v4l2_buffer metadataBuffer(uint32_t index) {
     v4l2_buffer buffer{};
@@ -99,7 +90,7 @@ bool MetadataStream::start() {
     v4l2_format format{};
     format.type = V4L2_BUF_TYPE_META_CAPTURE;
     format.fmt.meta.dataformat = V4L2_META_FMT_D4XX;
-    if (control(descriptor_, VIDIOC_S_FMT, &format) != 0 ||
+    if (videoIoctl(descriptor_, VIDIOC_S_FMT, &format) != 0 ||
         format.fmt.meta.dataformat != V4L2_META_FMT_D4XX) {
         return false;
     }
@@ -107,12 +98,12 @@ bool MetadataStream::start() {
     request.count = kBuffers;
     request.type = V4L2_BUF_TYPE_META_CAPTURE;
     request.memory = V4L2_MEMORY_MMAP;
-    if (control(descriptor_, VIDIOC_REQBUFS, &request) != 0) {
+    if (videoIoctl(descriptor_, VIDIOC_REQBUFS, &request) != 0) {
         return false;
     }
     for (uint32_t i = 0; i < std::min(request.count, kBuffers); ++i) {
         v4l2_buffer buffer = metadataBuffer(i);
-        if (control(descriptor_, VIDIOC_QUERYBUF, &buffer) != 0) {
+        if (videoIoctl(descriptor_, VIDIOC_QUERYBUF, &buffer) != 0) {
             return false;
         }
         void* at = ::mmap(nullptr, buffer.length, PROT_READ, MAP_SHARED, descriptor_,
@@ -121,15 +112,15 @@ bool MetadataStream::start() {
             return false;
         }
         buffers_[i] = {static_cast<uint8_t*>(at), buffer.length};
-        control(descriptor_, VIDIOC_QBUF, &buffer);
+        videoIoctl(descriptor_, VIDIOC_QBUF, &buffer);
     }
     int type = V4L2_BUF_TYPE_META_CAPTURE;
-    return control(descriptor_, VIDIOC_STREAMON, &type) == 0;
+    return videoIoctl(descriptor_, VIDIOC_STREAMON, &type) == 0;
 }
 
 MetadataStream::~MetadataStream() {
     int type = V4L2_BUF_TYPE_META_CAPTURE;
-    control(descriptor_, VIDIOC_STREAMOFF, &type);
+    videoIoctl(descriptor_, VIDIOC_STREAMOFF, &type);
     for (const auto& buffer : buffers_) {
         if (!buffer.empty()) {
             ::munmap(buffer.data(), buffer.size());
@@ -140,14 +131,14 @@ MetadataStream::~MetadataStream() {
 
 void MetadataStream::gather() {
     v4l2_buffer buffer = metadataBuffer(0);
-    while (control(descriptor_, VIDIOC_DQBUF, &buffer) == 0) {
+    while (videoIoctl(descriptor_, VIDIOC_DQBUF, &buffer) == 0) {
         const auto& bytes = buffers_[buffer.index];
         reported_[next_++ % reported_.size()] = {
             buffer.sequence,
             static_cast<double>(buffer.timestamp.tv_sec) +
                 1e-6 * static_cast<double>(buffer.timestamp.tv_usec),
             pipeLatencyOf(bytes.first(std::min<size_t>(buffer.bytesused, bytes.size())))};
-        control(descriptor_, VIDIOC_QBUF, &buffer);
+        videoIoctl(descriptor_, VIDIOC_QBUF, &buffer);
         buffer = metadataBuffer(0);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/video_node.h"
 
+#include "devices/v4l2/video_ioctl.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
 
@@ -100,11 +101,7 @@ VideoNode& VideoNode::operator=(VideoNode&& other) noexcept {
 }
 
 int VideoNode::control(unsigned long request, void* argument) const noexcept {
-    int result = -1;
-    do {
-        result = ::ioctl(descriptor_, request, argument);
-    } while (result < 0 && errno == EINTR);
-    return result;
+    return videoIoctl(descriptor_, request, argument);
 }
 
 void VideoNode::identify(const std::string& busInfo) {
