@@ -57,12 +57,6 @@ std::string plainLetters(std::string_view name) {
 }
 
 template <size_t N>
-bool holdsAny(const std::string& text, const std::array<std::string_view, N>& words) {
-    return std::ranges::any_of(words,
-                               [&](std::string_view word) { return text.find(word) != std::string::npos; });
-}
-
-template <size_t N>
 bool isAny(const std::string& text, const std::array<std::string_view, N>& words) {
     return std::ranges::find(words, text) != words.end();
 }
@@ -139,7 +133,7 @@ bool namesBentLens(const std::string& model) {
     // OmniVision is a maker of sensors.
     constexpr std::array<std::string_view, 7> kWhole{"omni", "mei", "ucm", "eucm", "fov", "kb4", "kb8"};
     const std::string plain = plainLetters(model);
-    return holdsAny(plain, kParts) || isAny(plain, kWhole);
+    return containsAny(plain, kParts) || isAny(plain, kWhole);
 }
 
 constexpr const char* kBentAllowed =
@@ -177,15 +171,16 @@ bool namesScale(const std::string& key) {
     constexpr std::array<std::string_view, 8> kRates{"permetre", "permeter", "metresper", "metersper",
                                                      "metreper", "meterper", "tometre",   "tometer"};
     const std::string plain = plainLetters(key);
-    const bool rate = holdsAny(plain, kRates) && plain.find("pixel") == std::string::npos;
-    return key != kOwnScale && (isAny(plain, kWhole) || rate || (namesDepth(key) && holdsAny(plain, kKinds)));
+    const bool rate = containsAny(plain, kRates) && plain.find("pixel") == std::string::npos;
+    return key != kOwnScale &&
+           (isAny(plain, kWhole) || rate || (namesDepth(key) && containsAny(plain, kKinds)));
 }
 
 // Of noise, or in another unit than metres.
 bool isNoMetres(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 5> kNoise{"noise", "sigma", "error", "micro", "percent"};
     return std::ranges::any_of(words, [&](const std::string& word) {
-        return word == "um" || word == "mm" || holdsAny(word, kNoise);
+        return word == "um" || word == "mm" || containsAny(word, kNoise);
     });
 }
 

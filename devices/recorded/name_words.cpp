@@ -25,6 +25,11 @@ std::vector<std::string> nameWords(std::string_view name) {
     return words;
 }
 
+bool containsAny(std::string_view text, std::span<const std::string_view> parts) {
+    return std::ranges::any_of(
+        parts, [&](std::string_view part) { return text.find(part) != std::string_view::npos; });
+}
+
 bool nameOtherThing(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 35> kThings{
         "object", "objects",  "obj",    "hand",   "hands", "human",   "person",  "body",     "joint",

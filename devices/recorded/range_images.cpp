@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/range_images.h"
 
+#include "devices/recorded/name_words.h"
 #include "engine/types/lower_case.h"
 
 #include <algorithm>
@@ -12,12 +13,6 @@
 namespace fathom {
 
 namespace {
-
-template <size_t N>
-bool hasAny(const std::string& lower, const std::array<std::string_view, N>& words) {
-    return std::ranges::any_of(words,
-                               [&](std::string_view word) { return lower.find(word) != std::string::npos; });
-}
 
 // Whether a word of the name begins so. A capital begins a word, too.
 bool hasWord(const std::string& name, std::string_view word) {
@@ -42,10 +37,10 @@ RangeName rangeName(const std::string& name) {
     const std::string lower = lowerCase(name);
     const bool distance = hasWord(name, "distance") || hasWord(name, "range");
     const bool alongRays = std::ranges::any_of(kAlongRays, [&](auto word) { return hasWord(name, word); });
-    if (hasAny(lower, kRanges) || (alongRays && (distance || hasWord(name, "depth")))) {
+    if (containsAny(lower, kRanges) || (alongRays && (distance || hasWord(name, "depth")))) {
         return RangeName::Surely;
     }
-    return distance && !hasAny(lower, kNotRanges) ? RangeName::Perhaps : RangeName::No;
+    return distance && !containsAny(lower, kNotRanges) ? RangeName::Perhaps : RangeName::No;
 }
 
 std::string axisWarning(const std::string& name, const std::string& option) {
