@@ -20,15 +20,9 @@ uint32_t buttonOf(const Ros2Word& word) {
     return button;
 }
 
-bool takeTopic(const Ros2Word& word, Ros2HandRequest& request) {
-    for (const auto& [name, topic] : {std::pair("pose", &request.pose), std::pair("wrench", &request.wrench),
-                                      std::pair("joy", &request.joy)}) {
-        if (word.name == name) {
-            *topic = ros2Topic(kHandOption, word, Ros2HandRequest::kAllowed);
-            return true;
-        }
-    }
-    return false;
+bool takeHandTopic(const Ros2Word& word, Ros2HandRequest& request) {
+    return takeTopic(kHandOption, word, Ros2HandRequest::kAllowed,
+                     {{"pose", &request.pose}, {"wrench", &request.wrench}, {"joy", &request.joy}});
 }
 
 bool takeButton(const Ros2Word& word, Ros2HandRequest& request) {
@@ -55,7 +49,7 @@ Ros2HandRequest parseRos2HandRequest(const std::string& text) {
     for (const Ros2Word& word : ros2Words(text)) {
         if (word.name == "preset") {
             request.preset = word.value;
-        } else if (!takeTopic(word, request) && !takeButton(word, request) &&
+        } else if (!takeHandTopic(word, request) && !takeButton(word, request) &&
                    !takePlace(kHandOption, word, request.place)) {
             throw BadInput(kHandOption, word.name, word.value, request.kAllowed);
         }

@@ -3,8 +3,6 @@
 
 #include "engine/types/error.h"
 
-#include <utility>
-
 namespace fathom {
 
 namespace {
@@ -12,15 +10,9 @@ namespace {
 constexpr const char* kOutputOption = "--ros2";
 
 bool takeRobot(const Ros2Word& word, Ros2OutputRequest& request) {
-    for (const auto& [name, topic] :
-         {std::pair("twist", &request.twist), std::pair("trajectory", &request.trajectory),
-          std::pair("measured", &request.measured)}) {
-        if (word.name == name) {
-            *topic = ros2Topic(kOutputOption, word, Ros2OutputRequest::kAllowed);
-            return true;
-        }
-    }
-    return false;
+    return takeTopic(
+        kOutputOption, word, Ros2OutputRequest::kAllowed,
+        {{"twist", &request.twist}, {"trajectory", &request.trajectory}, {"measured", &request.measured}});
 }
 
 } // namespace

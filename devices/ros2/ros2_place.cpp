@@ -85,6 +85,17 @@ std::string ros2Topic(const std::string& option, const Ros2Word& word, const std
     return full;
 }
 
+bool takeTopic(const std::string& option, const Ros2Word& word, const std::string& allowed,
+               std::initializer_list<std::pair<std::string_view, std::string*>> topics) {
+    for (const auto& [name, topic] : topics) {
+        if (word.name == name) {
+            *topic = ros2Topic(option, word, allowed);
+            return true;
+        }
+    }
+    return false;
+}
+
 std::string ros2Frame(const std::string& option, const Ros2Word& word) {
     constexpr size_t kLongest = 100;
     const auto fits = [](unsigned char c) {

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace fathom {
@@ -42,6 +45,10 @@ double ros2Number(const std::string& option, const Ros2Word& word, double most, 
 // "/camera/depth/image_raw" and the like. A leading slash is added where there is none. allowed: the form of
 // the option. Throws BadInput.
 std::string ros2Topic(const std::string& option, const Ros2Word& word, const std::string& allowed);
+
+// Takes the word into the topic of its name; false when it has none of these names. Throws as ros2Topic().
+bool takeTopic(const std::string& option, const Ros2Word& word, const std::string& allowed,
+               std::initializer_list<std::pair<std::string_view, std::string*>> topics);
 
 // The value as the name of a frame, e.g. "base_link". Throws BadInput.
 std::string ros2Frame(const std::string& option, const Ros2Word& word);
