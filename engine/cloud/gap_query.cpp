@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/gap_query.h"
 
+#include "engine/cloud/answer_room.h"
 #include "shaders/shared/constants.h"
 #include "shaders/smallest_gap.h"
 
@@ -86,7 +87,7 @@ void GapQuery::reserve(size_t poses) {
 
 // False when the device's buffers cannot hold that many.
 bool GapQuery::growTo(uint32_t pairs) {
-    const uint32_t most = pairs > 0x80000000u ? UINT32_MAX : std::bit_ceil(pairs);
+    const uint32_t most = roomFor(pairs);
     if (bytesOfPairs(most) > device_.facts().maxStorageBufferBytes) {
         return false;
     }
@@ -126,7 +127,7 @@ void GapQuery::record(const Batch& batch, Part part) {
     commands.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
     run_.stopTime();
     commands.barrier();
-    copyPairs(commands, std::min(most_, std::max(kMinCopiedPairs, found_ + found_ / 4)));
+    copyPairs(commands, copiedAhead(found_, kMinCopiedPairs, most_));
 }
 
 // False when the answer does not fit: then found_ says how many pairs there are.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/query_answer.h"
 
+#include "engine/cloud/answer_room.h"
+
 #include <algorithm>
-#include <bit>
 #include <utility>
 
 namespace fathom::cloud {
@@ -14,18 +15,9 @@ using Counts = QueryAnswer::Counts;
 
 constexpr uint64_t kHeader = 16;            // [bytes]
 constexpr Counts kMinCopied = {1024, 2048}; // in every copy: it costs less than a second one
-constexpr uint32_t kMaxOfAny = 0x80000000u;
 
 uint64_t bytesOf(const Counts& capacity) {
     return kHeader + uint64_t{capacity.spheres} * sizeof(FoundSphere) + 4ull * capacity.leaves;
-}
-
-uint32_t roomFor(uint32_t count) {
-    return count > kMaxOfAny ? UINT32_MAX : std::bit_ceil(count);
-}
-
-uint32_t guess(uint32_t last, uint32_t least, uint32_t capacity) {
-    return std::min(capacity, std::max(least, last + last / 4));
 }
 
 } // namespace
@@ -84,8 +76,8 @@ void QueryAnswer::copyPart(gpu::Commands& commands, const Counts& part) {
 }
 
 void QueryAnswer::copy(gpu::Commands& commands) {
-    copyPart(commands, {guess(last_.spheres, kMinCopied.spheres, capacity_.spheres),
-                        guess(last_.leaves, kMinCopied.leaves, capacity_.leaves)});
+    copyPart(commands, {copiedAhead(last_.spheres, kMinCopied.spheres, capacity_.spheres),
+                        copiedAhead(last_.leaves, kMinCopied.leaves, capacity_.leaves)});
 }
 
 void QueryAnswer::copyAll(gpu::Commands& commands) {
