@@ -5,6 +5,7 @@
 #include "apps/inspect/stream_report.h"
 #include "engine/types/error.h"
 #include "tests/devices/bag_maker.h"
+#include "tests/support/mentions.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -13,15 +14,9 @@
 #include <tuple>
 
 using namespace fathom;
+using fathom::testing::mentions;
 
 namespace {
-
-bool reports(const std::string& text, const std::string& part) {
-    CAPTURE(text);
-    CAPTURE(part);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
-}
 
 std::vector<MessageEntry> messagesAt(const std::vector<double>& seconds) {
     std::vector<MessageEntry> messages;
@@ -98,11 +93,11 @@ TEST_CASE("Streams of a bag are listed with type, count, encoding, size, frame a
     std::ofstream(folder.path() / "a.bag", std::ios::binary) << maker.bag();
     std::ostringstream out;
     writeStreams(*openMessageFile(folder.path() / "a.bag"), "", out);
-    reports(out.str(), "/camera/depth/image_raw");
-    reports(out.str(), "sensor_msgs/Image");
-    reports(out.str(), "2/s");
-    reports(out.str(), "8x6 16UC1, frame 'camera', lens: ");
-    reports(out.str(), "/odd");
+    mentions(out.str(), "/camera/depth/image_raw");
+    mentions(out.str(), "sensor_msgs/Image");
+    mentions(out.str(), "2/s");
+    mentions(out.str(), "8x6 16UC1, frame 'camera', lens: ");
+    mentions(out.str(), "/odd");
     CHECK(out.str().find("camera_info") != std::string::npos); // why there is no lens
 }
 
@@ -118,8 +113,8 @@ TEST_CASE("Recordings of cameras' SDKs are recognised by their first bytes, and 
         REQUIRE(messages != nullptr);
         std::ostringstream out;
         writeStreams(*messages, "", out);
-        reports(out.str(), image);
-        reports(out.str(), lens);
+        mentions(out.str(), image);
+        mentions(out.str(), lens);
     }
 }
 
@@ -158,21 +153,21 @@ TEST_CASE("The frames of a camera are counted, timed and measured, and its first
     const testing::ScratchFolder folder;
     PlainCamera camera(11, 500, 0xff0000ff);
     const std::string text = reportOf(camera, folder.path() / "pictures");
-    reports(text, "11 read; 2 skipped; 0 with the camera's pose");
-    reports(text, "from 100.000 s, 1.000 s long, 10.00 frames/s; longest gap 0.100 s");
-    reports(text, "97.1 % of the pixels measured; 0.500 m nearest, 0.500 m median, 0.500 m farthest");
-    reports(text, "100.0 % of the pixels have a saturation over 0.1");
+    mentions(text, "11 read; 2 skipped; 0 with the camera's pose");
+    mentions(text, "from 100.000 s, 1.000 s long, 10.00 frames/s; longest gap 0.100 s");
+    mentions(text, "97.1 % of the pixels measured; 0.500 m nearest, 0.500 m median, 0.500 m farthest");
+    mentions(text, "100.0 % of the pixels have a saturation over 0.1");
     CHECK(std::filesystem::file_size(folder.path() / "pictures/depth.png") > 0);
     CHECK(std::filesystem::file_size(folder.path() / "pictures/colour.png") > 0);
 }
 
 TEST_CASE("A camera without a frame, without depth and without colour is described, too") {
     PlainCamera none(0, 500, 0);
-    reports(reportOf(none), "0 read");
+    mentions(reportOf(none), "0 read");
     PlainCamera blind(1, 0, 0xff808080);
     const std::string text = reportOf(blind);
-    reports(text, "0.0 % of the pixels measured\n");
-    reports(text, "0.0 % of the pixels have a saturation over 0.1");
+    mentions(text, "0.0 % of the pixels measured\n");
+    mentions(text, "0.0 % of the pixels have a saturation over 0.1");
     PlainCamera more(FrameStudy::kMaxFrames + 1, 65535, 0);
-    reports(reportOf(more), "300 read, the first ones");
+    mentions(reportOf(more), "300 read, the first ones");
 }

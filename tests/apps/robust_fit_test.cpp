@@ -2,6 +2,7 @@
 // Registrations that must not be believed: scale, mirror images, outliers, scatter.
 #include "apps/register/robust_fit.h"
 #include "tests/apps/point_pairs.h"
+#include "tests/support/mentions.h"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -39,13 +40,6 @@ std::vector<PointPair> scattered(size_t count, const dvec3& extent, double camer
         pairs.push_back({seen, kBaseTcamera.apply(p) + noise(baseNoise), "line " + std::to_string(i + 2)});
     }
     return pairs;
-}
-
-bool mentions(const std::string& text, const std::string& part) {
-    CAPTURE(text);
-    CAPTURE(part);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace

@@ -3,10 +3,12 @@
 #include "apps/replay/run_watch.h"
 
 #include "engine/cycle/haptic_notes.h"
+#include "tests/support/mentions.h"
 
 #include <doctest/doctest.h>
 
 using namespace fathom;
+using fathom::testing::mentions;
 
 namespace {
 
@@ -64,13 +66,6 @@ struct WatchedRun {
     double t = 0.0;
 };
 
-bool says(const std::string& text, const std::string& part) {
-    CAPTURE(text);
-    CAPTURE(part);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
-}
-
 } // namespace
 
 TEST_CASE(
@@ -79,13 +74,13 @@ TEST_CASE(
     run.frames(0.9, 0, 0, kColoured);
     CHECK(run.quiet());
     run.frames(3.0, 0, 0, kColoured);
-    says(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates; "
-                     "colour /rgb (yuv422)");
+    mentions(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates; "
+                         "colour /rgb (yuv422)");
 
     WatchedRun brief;
     brief.frames(0.1, 0, 0, kColoured);
     brief.watch.end();
-    says(brief.only(), "fixture 'valve' has no region in any frame");
+    mentions(brief.only(), "fixture 'valve' has no region in any frame");
 
     WatchedRun sometimes;
     sometimes.frames(0.5, 20, 5, kColoured);
@@ -94,7 +89,7 @@ TEST_CASE(
     sometimes.watch.end();
     CHECK(sometimes.quiet());
     sometimes.frames(4.5, 0, 0, kColoured);
-    says(sometimes.only(), "from 3.");
+    mentions(sometimes.only(), "from 3.");
 }
 
 TEST_CASE(
@@ -102,23 +97,23 @@ TEST_CASE(
     WatchedRun grey;
     grey.frames(0.1, 0, 0, kGrey);
     grey.watch.end();
-    says(grey.only(), "the colour image is grey");
+    mentions(grey.only(), "the colour image is grey");
 
     WatchedRun far;
     far.set.camera.metresPerUnit = 1.0;
     far.frames(0.1, 0, 0, kColoured, 0);
     far.watch.end();
-    says(far.only(), "readings are 600 to 620 m, with a depth unit of 1 m");
+    mentions(far.only(), "readings are 600 to 620 m, with a depth unit of 1 m");
 
     WatchedRun flying;
     flying.frames(0.1, 3, 0, kColoured);
     flying.watch.end();
-    says(flying.only(), "flying or isolated");
+    mentions(flying.only(), "flying or isolated");
 
     WatchedRun few(Role::Guidance);
     few.frames(0.1, 49, 0, kColoured);
     few.watch.end();
-    says(few.only(), "no target in any frame: 49 points, min_count is 50");
+    mentions(few.only(), "no target in any frame: 49 points, min_count is 50");
     WatchedRun enough(Role::Guidance);
     enough.frames(2.0, 50, 0, kColoured);
     enough.watch.end();
@@ -129,12 +124,12 @@ TEST_CASE(
     "A state without force that lasts over a second is named once with its cause, and a short one is not") {
     WatchedRun none;
     none.ticks(0.0, 3.0, "off", -1);
-    says(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
+    mentions(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
 
     WatchedRun unplaced;
     unplaced.frames(0.1, 20, 5, kColoured);
     unplaced.ticks(0.0, 1.5, "off", -1);
-    says(unplaced.only(), "no contact answer was made near the tool");
+    mentions(unplaced.only(), "no contact answer was made near the tool");
 
     WatchedRun switched;
     switched.frames(0.1, 20, 5, kColoured);
@@ -143,11 +138,11 @@ TEST_CASE(
     switched.ticks(1.0, 1.9, "off", 0);
     CHECK(switched.quiet());
     switched.ticks(1.9, 2.5, "off", 0);
-    says(switched.only(), "state 'off' from 1.00 s on");
+    mentions(switched.only(), "state 'off' from 1.00 s on");
 
     WatchedRun lags;
     lags.ticks(0.0, 1.5, "waiting", 0);
-    says(lags.only(), "the tool cannot follow the hand");
+    mentions(lags.only(), "the tool cannot follow the hand");
 
     for (const auto& [state, cause] : {std::pair("trapped", "no motion of the tool obeys all fixtures"),
                                        std::pair("escape", "covers the tool, and pushes it out"),
@@ -158,14 +153,14 @@ TEST_CASE(
         odd.ticks(0.3, 1.2, state, 0);
         CHECK(odd.quiet());
         odd.ticks(1.2, 1.5, state, 0);
-        says(odd.only(), std::string("state '") + state + "' from 0.30 s on for 1 s: ");
-        says(odd.only(), cause);
+        mentions(odd.only(), std::string("state '") + state + "' from 0.30 s on for 1 s: ");
+        mentions(odd.only(), cause);
     }
 
     WatchedRun brief;
     brief.ticks(0.0, 0.2, "off", -1);
     brief.watch.end();
-    says(brief.only(), "state 'off'");
+    mentions(brief.only(), "state 'off'");
     WatchedRun starts;
     starts.ticks(0.0, 0.2, "off", -1);
     starts.ticks(0.2, 0.4, "free", 0);
@@ -179,13 +174,14 @@ TEST_CASE("A region that disappears while it presses is named at once, with its 
     run.ticks(0.0, 0.5, "contact", 0);
     run.frames(0.54, 0, 0, kDark);
     run.ticks(0.5, 0.54, "free", 1, 1);
-    says(run.only(), "a region disappeared at 0.50 s while it pressed: fixture 'valve' has no region: the "
-                     "colour image is black");
+    mentions(run.only(),
+             "a region disappeared at 0.50 s while it pressed: fixture 'valve' has no region: the "
+             "colour image is black");
     WatchedRun other;
     other.frames(0.5, 20, 5, kColoured);
     other.ticks(0.0, 0.5, "contact", 0);
     other.ticks(0.5, 0.6, "free", 1, 1);
-    says(other.only(), "the newest frame shows nothing in its place");
+    mentions(other.only(), "the newest frame shows nothing in its place");
 }
 
 TEST_CASE("Frames that come too seldom for a steady force are named, a few late ones are not") {
@@ -203,7 +199,7 @@ TEST_CASE("Frames that come too seldom for a steady force are named, a few late 
     CHECK(warnings(0.09, 1.0).empty());
     CHECK(warnings(0.1, 0.0).empty());
     REQUIRE(warnings(0.2, 0.0).size() == 1);
-    says(warnings(0.2, 0.0)[0], "frames come 0.2 s apart: forces fade 0.1 s after each");
+    mentions(warnings(0.2, 0.0)[0], "frames come 0.2 s apart: forces fade 0.1 s after each");
 }
 
 TEST_CASE("Warnings are kept once per key, in order, on one line, and their number is bounded") {
@@ -247,7 +243,7 @@ TEST_CASE("An edited class is judged by its new name and role, and a class that 
     run.frames(1.2, 20, 5, kColoured);
     CHECK(run.quiet()); // patience begins with the edit
     run.frames(2.0, 20, 5, kColoured);
-    says(run.only(), "fixture 'handle' has no target from 0.5");
+    mentions(run.only(), "fixture 'handle' has no target from 0.5");
 
     edited.fixtures[0].name = "(spare 0)"; // as in a recording
     WatchedRun removed;

@@ -2,6 +2,7 @@
 // Bags whose lens, unit or stamps change, and streams that only look like depth or colour.
 #include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -144,7 +145,7 @@ TEST_CASE(
     }
     BagCamera without = playStreams(folder, maker);
     REQUIRE(without.warnings().size() == 1);
-    CHECK(lineSays(without.warnings()[0], "Depth_Units"));
+    CHECK(mentions(without.warnings()[0], "Depth_Units"));
     CHECK(depthsOf(without).size() == 3);
     CHECK(playStreams(folder, maker, {.scale = 0.0001}).warnings().empty());
     maker.add(option, "std_msgs/Float32", 0.9, raw(0.001f));
@@ -207,7 +208,7 @@ TEST_CASE("A 16-bit grey image is depth only under a name of depth, or when it i
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/boson/image_raw", depthImage(3000, "camera", "mono16"));
-    CHECK(lineSays(streamRefusal(folder, maker), "/boson/image_raw (mono16)"));
+    CHECK(mentions(streamRefusal(folder, maker), "/boson/image_raw (mono16)"));
     BagCamera asked = playStreams(folder, maker, {.depth = "/boson/image_raw"});
     CHECK(firstDepth(asked) == doctest::Approx(3.0));
     BagMaker named;
@@ -240,7 +241,7 @@ TEST_CASE("Painted depth is not taken for colour unless it is asked for, and is 
     addStream(maker, "/c/depth_registered/image_colored", redImage());
     BagCamera camera = playStreams(folder, maker);
     CHECK_FALSE(camera.info().hasColour);
-    CHECK(lineSays(camera.whyNoColour(), "/c/depth_registered/image_colored (rgb8, named as painted depth"));
+    CHECK(mentions(camera.whyNoColour(), "/c/depth_registered/image_colored (rgb8, named as painted depth"));
     CHECK(playStreams(folder, maker, {.colour = "/c/depth_registered/image_colored"}).info().hasColour);
     BagMaker real; // as Gazebo names the colour of a depth camera
     addStream(real, "/depth_camera/depth/image_raw", depthImage(500));
@@ -266,12 +267,12 @@ TEST_CASE("Files without images name their topics, and video that is not read is
     const TemporaryFolder folder;
     BagMaker maker;
     maker.add("/stereo/disparity", "stereo_msgs/DisparityImage", 1.0, std::string(40, '\0'));
-    CHECK(lineSays(streamRefusal(folder, maker),
+    CHECK(mentions(streamRefusal(folder, maker),
                    "no images but /stereo/disparity (stereo_msgs/DisparityImage)"));
     addStream(maker, "/c/depth/image_raw", depthImage(500));
     maker.add("/c/rgb/theora", "theora_image_transport/Packet", 1.0, std::string(40, '\0'));
     CHECK(
-        lineSays(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
+        mentions(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
 }
 
 TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong can be said") {
@@ -282,10 +283,10 @@ TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong ca
     BagCamera camera = playStreams(folder, maker, {.farthest = 10.0});
     CHECK(firstDepth(camera) == doctest::Approx(500.0).epsilon(1e-3));
     REQUIRE(camera.warnings().size() == 1);
-    CHECK(lineSays(camera.warnings()[0], "scale=0.001"));
+    CHECK(mentions(camera.warnings()[0], "scale=0.001"));
     BagCamera scaled = playStreams(folder, maker, {.scale = 0.001, .farthest = 10.0});
     CHECK(firstDepth(scaled) == doctest::Approx(0.5).epsilon(1e-3));
-    CHECK(lineSays(streamRefusal(folder, maker, {.scale = 1000.0}), "scale: 1000"));
+    CHECK(mentions(streamRefusal(folder, maker, {.scale = 1000.0}), "scale: 1000"));
 }
 
 TEST_CASE("The first bytes of a file of messages decide its kind, not its name") {

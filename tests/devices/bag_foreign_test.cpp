@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags as bridges, scripts and crashed recorders leave them: lenses without size, bytes behind the end.
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 #include <algorithm>
 
@@ -23,7 +24,7 @@ TEST_CASE(
         CHECK(camera.info().depth.height == 6);
         CHECK(camera.info().depth.fx == 7.0);
         CHECK(camera.info().registered);
-        lineSays(camera.streams(), "/c/camera_info without width and height (taken: 8x6)");
+        mentions(camera.streams(), "/c/camera_info without width and height (taken: 8x6)");
         for (int frame = 0; frame < 3; ++frame) {
             CHECK(firstDepth(camera) == 0.5);
         }
@@ -31,11 +32,11 @@ TEST_CASE(
     }
     BagMaker half;
     addStream(half, "/c/depth", depthImage(500), {.width = 0});
-    lineSays(streamRefusal(folder, half), "0x6 where the images of /c/depth have 8x6");
+    mentions(streamRefusal(folder, half), "0x6 where the images of /c/depth have 8x6");
     BagMaker ofOtherSize;
     addStream(ofOtherSize, "/c/depth", depthImage(500),
               {.width = 0, .height = 0, .k = {14.0, 14.0, 7.0, 5.0}});
-    lineSays(streamRefusal(folder, ofOtherSize),
+    mentions(streamRefusal(folder, ofOtherSize),
              "/c/camera_info: width, height: 0, with the principal point (7, 5), as in the middle of images "
              "of 14x10 (allowed: the size of the images of /c/depth, 8x6, whose middle is (3.5, 2.5); "
              "or intrinsics=FILE after the file name)");
@@ -49,7 +50,7 @@ TEST_CASE("Compressed images of unknown content and empty ones are named apart")
         BagMaker maker;
         maker.add("/c/depth", "sensor_msgs/CompressedImage", 1.0,
                   compressedMessage(1.0, "camera", "16UC1; compressedDepth png", bytes));
-        lineSays(streamRefusal(folder, maker), fault);
+        mentions(streamRefusal(folder, maker), fault);
     }
 }
 
@@ -90,7 +91,7 @@ TEST_CASE("A lens without a size is not used for images of another size that cam
                              Lens{160, 120, 160.0, 90.0}, Lens{80, 60, 40.0, 22.5}}) {
         CAPTURE(lens.width);
         CAPTURE(lens.cx);
-        lineSays(unsizedRefusal(lens.width, lens.height, lens.cx, lens.cy), "width, height: 0, with");
+        mentions(unsizedRefusal(lens.width, lens.height, lens.cx, lens.cy), "width, height: 0, with");
     }
     // Real ones of their own size: Kinect, Xtion, D435 at 848x480, Azure Kinect, ZED.
     for (const Lens& lens : {Lens{80, 60, 42.4, 31.3}, Lens{80, 60, 39.3, 30.0}, Lens{106, 60, 52.6, 29.4},
@@ -148,7 +149,7 @@ TEST_CASE("Of several colours that fit equally the one whose name is most like t
                           topic == depth ? depthImage(900, frame) : redImage(frame), {.frame = frame});
             }
             const BagCamera camera = playStreams(folder, maker);
-            CHECK(lineSays(camera.streamOptions(), std::string(",colour=") + own));
+            CHECK(mentions(camera.streamOptions(), std::string(",colour=") + own));
         }
     }
 }
@@ -198,7 +199,7 @@ TEST_CASE("Images of 16 bits that nothing names depth are played with a warning,
     for (const char* topic : {"/lepton/image_raw", "/stereo/disp", "/front/class_ids", "/front/object_ids"}) {
         BagMaker maker;
         addStream(maker, topic, depthImage(2731));
-        lineSays(streamRefusal(folder, maker), "whose name is not one of infrared");
+        mentions(streamRefusal(folder, maker), "whose name is not one of infrared");
     }
 }
 
@@ -209,6 +210,6 @@ TEST_CASE("A skew of a lens is named, as no lens here has one") {
         addStream(maker, "/c/depth/image_raw", depthImage(500), {.skew = skew});
         const auto warnings = playStreams(folder, maker).warnings();
         REQUIRE(warnings.size() == (skew < 0.0 ? 1 : 0));
-        CHECK((warnings.empty() || lineSays(warnings[0], "/c/depth/camera_info: a skew of -12 pixels")));
+        CHECK((warnings.empty() || mentions(warnings[0], "/c/depth/camera_info: a skew of -12 pixels")));
     }
 }

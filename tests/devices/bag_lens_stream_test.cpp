@@ -9,6 +9,7 @@
 #include "tests/devices/bag_maker.h"
 #include "tests/devices/database_maker.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 #include <map>
 
@@ -167,13 +168,13 @@ TEST_CASE("Depth that is aligned to colour has colour's lens where none of its o
                       imageMessage(t, depthImage(500, oneFrame ? "color" : "depth")));
         }
         if (!oneFrame) {
-            lineSays(streamRefusal(folder, maker), "info=/camera/color/camera_info");
+            mentions(streamRefusal(folder, maker), "info=/camera/color/camera_info");
             continue;
         }
         const BagCamera camera = playStreams(folder, maker);
         CHECK(camera.info().registered);
         CHECK(camera.info().depth.fx == 6.0);
         CHECK(camera.info().colour.cy == 2.0);
-        lineSays(camera.streams(), "lens of /camera/color/image_raw");
+        mentions(camera.streams(), "lens of /camera/color/image_raw");
     }
 }

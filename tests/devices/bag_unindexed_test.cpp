@@ -3,6 +3,7 @@
 #include "devices/bag/bag_file.h"
 #include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -25,7 +26,7 @@ std::vector<uint16_t> depthsOf(const TemporaryFolder& folder, const std::string&
     CHECK(log.count(note) == 1);
     CHECK(log.count("rosbag reindex") == 1);
     REQUIRE(camera.warnings().size() == 1);
-    lineSays(camera.warnings()[0], note);
+    mentions(camera.warnings()[0], note);
     std::vector<uint16_t> depths; // [mm]
     while (const auto frame = camera.next()) {
         depths.push_back((*frame)->depth[0]);
@@ -108,7 +109,7 @@ TEST_CASE("A bag with a damaged index and chunk keeps the topics that only its i
 TEST_CASE("A bag without an index and without a message is rejected with the fault of its index") {
     const TemporaryFolder folder;
     folder.write("a.bag", BagMaker().chunks("none"));
-    lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }),
+    mentions(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }),
              "a.bag: index: no index: the bag was not closed, and no whole chunk holds a message (allowed: ");
 }
 
@@ -119,9 +120,9 @@ TEST_CASE("An empty bag and one of an older version are refused as what they are
         return testing::refusalOf([&] { BagFile(folder.path() / "a.bag"); });
     };
     const std::string allowed = " (allowed: a ROS 1 bag of version 2.0)";
-    lineSays(refusal(""), "a.bag: format: empty" + allowed);
-    lineSays(refusal("#ROSBAG V1.2\nmore"),
+    mentions(refusal(""), "a.bag: format: empty" + allowed);
+    mentions(refusal("#ROSBAG V1.2\nmore"),
              "a.bag: format: a bag of version 1.2, which rosbag fix of ROS 1 converts" + allowed);
-    lineSays(refusal("#ROSRECORD V1.1\n"), "a.bag: format: no bag" + allowed);
-    lineSays(refusal("x"), "a.bag: format: no bag" + allowed);
+    mentions(refusal("#ROSRECORD V1.1\n"), "a.bag: format: no bag" + allowed);
+    mentions(refusal("x"), "a.bag: format: no bag" + allowed);
 }

@@ -2,7 +2,9 @@
 // Colour of PCD files and of clouds in bags, in every form of their fields.
 #include "devices/bag/open_bag.h"
 #include "devices/pcd/pcd_camera.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/bag_maker.h"
+#include "tests/devices/recorded_folder.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -148,7 +150,7 @@ TEST_CASE("A dark cloud keeps the full scale of the clouds around it") {
 TEST_CASE("A cloud without colour that is read names its fields") {
     const TemporaryFolder folder;
     const auto camera = cloudsWith(folder, {{"rgb", 0, 8}, {"normal", 8, 7, 3}}, {std::string(20, '\0')});
-    lineSays(camera->whyNoColour(),
+    mentions(camera->whyNoColour(),
              "no colour is read from the fields x F4, y F4, z F4, rgb F8, normal F4 x 3 (read");
     folder.write(
         "a.pcd", "FIELDS x y z rgb\nSIZE 4 4 4 8\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 5\nHEIGHT 4\n"
@@ -161,6 +163,6 @@ TEST_CASE("A cloud without colour that is read names its fields") {
                          }
                          return points;
                      }());
-    lineSays(PcdCamera(folder / "a.pcd").whyNoColour(), "from the fields x F4, y F4, z F4, rgb U8 (read");
-    lineSays(PcdCamera(folder / "a.pcd", {.colour = "none"}).whyNoColour(), "no colour is read");
+    mentions(PcdCamera(folder / "a.pcd").whyNoColour(), "from the fields x F4, y F4, z F4, rgb U8 (read");
+    mentions(PcdCamera(folder / "a.pcd", {.colour = "none"}).whyNoColour(), "no colour is read");
 }

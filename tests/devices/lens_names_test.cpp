@@ -2,6 +2,7 @@
 // Fields of a lens file under the names of other programs, and its depth unit in every kind of recording.
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -64,11 +65,11 @@ TEST_CASE("A depth scale under the name of another program is refused with the n
         for (const char* value : {"6553.5", "0.0001526"}) {
             const std::string field = "\"" + std::string(name) + "\": " + value + "}";
             const std::string refusal = refusalWith(kFourFields + field);
-            lineSays(refusal, std::string(name) + ": ");
-            lineSays(refusal, kOwnScale);
+            mentions(refusal, std::string(name) + ": ");
+            mentions(refusal, kOwnScale);
         }
     }
-    lineSays(refusalWith(R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1],
+    mentions(refusalWith(R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1],
                              "depth_factor": 5000})"),
              kOwnScale);
 }
@@ -83,7 +84,7 @@ TEST_CASE("A second depth scale of millimetres, or one that scale= replaces, is 
         CHECK(refusalWith(kFourFields + fields) == "");
     }
     CHECK(refusalWith(kFourFields + R"("depth_factor": 5000})", {.scale = 0.0002}) == "");
-    lineSays(refusalWith(kFourFields + R"("depth_unit": "cm"})"), kOwnScale);
+    mentions(refusalWith(kFourFields + R"("depth_unit": "cm"})"), kOwnScale);
 }
 
 TEST_CASE("A depth scale in the block of depth, or distortion outside of those of two lenses, is refused") {
@@ -96,13 +97,13 @@ TEST_CASE("A depth scale in the block of depth, or distortion outside of those o
     for (const char* field : {R"(, "depth_scale_m_per_unit": 0.0001)", R"(, "depth_scale": 0.0001)",
                               R"(, "scale": 0.0001)", R"(, "units": "cm")"}) {
         CAPTURE(field);
-        lineSays(refusalWith(two(field, "")), "lens.json: depth.");
-        lineSays(refusalWith(two(field, "")), "(allowed: depth_scale_m_per_unit at the top level");
+        mentions(refusalWith(two(field, "")), "lens.json: depth.");
+        mentions(refusalWith(two(field, "")), "(allowed: depth_scale_m_per_unit at the top level");
         CHECK(refusalWith(two(field, R"(, "depth_scale_m_per_unit": 0.0001)")) == "");
         CHECK(refusalWith(two(field, ""), {.scale = 0.0001}) == "");
     }
     CHECK(refusalWith(two(R"(, "depth_scale_m_per_unit": 0.001)", "")) == "");
-    lineSays(refusalWith(kFourFields + R"("depth_info": {"scale": 0.0002}})"), "depth_info.scale: 0.0002 (");
+    mentions(refusalWith(kFourFields + R"("depth_info": {"scale": 0.0002}})"), "depth_info.scale: 0.0002 (");
     for (const char* field : {R"(, "distortion": [0.1, 0, 0, 0])", R"(, "D": [0.1, 0, 0, 0, 0])",
                               R"(, "camera_model": "OPENCV_FISHEYE")"}) {
         CAPTURE(field);
@@ -119,7 +120,7 @@ TEST_CASE("A bag's depth has the unit that the file of its lens states, unless s
     CHECK(firstDepth(given) == doctest::Approx(5.0));
     BagCamera none = bagWith(folder, kBagLens + "}");
     CHECK(firstDepth(none) == doctest::Approx(5.0));
-    lineSays(testing::refusalOf([&] { bagWith(folder, kBagLens + R"(, "depth_factor": 5000})"); }),
+    mentions(testing::refusalOf([&] { bagWith(folder, kBagLens + R"(, "depth_factor": 5000})"); }),
              kOwnScale);
     for (const char* unused : {R"(, "depth_factor": 5000})", R"(, "depth_scale_m_per_unit": 0.0001})"}) {
         BagCamera metres = bagWith(folder, kBagLens + unused, {}, "32FC1");
@@ -140,14 +141,14 @@ TEST_CASE("Two depth scales of one file that contradict each other have a warnin
     };
     const std::string own = R"("depth_scale_m_per_unit": 0.001, )",
                       tum = R"("depth_scale_m_per_unit": 0.0002, )";
-    lineSays(warnings(own + R"("depth_factor": 5000)"),
+    mentions(warnings(own + R"("depth_factor": 5000)"),
              "the depth unit of lens.json is 0.001 m, which is used, but its depth_factor is 5000, a unit of "
              "0.0002 m; remove one, or append scale=M");
     for (const std::string& fields :
          {own + R"("png_depth_scale": 0.0002)", own + R"("depth_info": {"scale": 5000})",
           tum + R"("depth_factor": 1000)", tum + R"("depth_unit": 0.001)"}) {
         CAPTURE(fields);
-        lineSays(warnings(fields), "which is used, but its ");
+        mentions(warnings(fields), "which is used, but its ");
     }
     for (const std::string& fields :
          {own + R"("depth_factor": 1000)", tum + R"("depth_factor": 5000)",
@@ -201,7 +202,7 @@ TEST_CASE("Distortion under the name of another program is refused unless it is 
         CAPTURE(name);
         for (const char* value : {"[0.2, 0.05, 0, 0, 0]", "0.2", R"({"k1": 0.2})", "[[0.2], [0.05]]"}) {
             const std::string field = "\"" + std::string(name) + "\": " + value + "}";
-            lineSays(refusalWith(kFourFields + field), "(allowed: zeros, or the coefficients as a list");
+            mentions(refusalWith(kFourFields + field), "(allowed: zeros, or the coefficients as a list");
         }
         for (const char* value : {"[0, 0.0, 0, 0, 0]", "0", R"({"k1": 0})", "[[0], [0]]", "null", "[]"}) {
             CAPTURE(value);
@@ -212,7 +213,7 @@ TEST_CASE("Distortion under the name of another program is refused unless it is 
     for (const char* list :
          {R"("params": [6, 6, 3, 2, 0.12, -0.25])", R"("lens_params": [0.12, -0.25])",
           R"("parameters": [6, 3, 2, 0.12])", R"("k": [0.12, -0.25, 0, 0])", R"("k": 0.12)"}) {
-        lineSays(refusalWith(kFourFields + list + "}"), "(allowed: zeros, or the coefficients as a list");
+        mentions(refusalWith(kFourFields + list + "}"), "(allowed: zeros, or the coefficients as a list");
     }
     for (const char* list : {R"("params": [6, 6, 3, 2, 0, 0])", R"("K": [600, 0, 300, 0, 600, 200, 0, 0, 1])",
                              R"("k": [[6, 0, 3], [0, 6, 2], [0, 0, 1]])", R"("params": {"k": 0.1})",
@@ -241,10 +242,10 @@ TEST_CASE("The model of a lens that bends rays is refused without its coefficien
                               R"("distortion_model": "equidistant")", R"("camera_type": "kannala_brandt4")",
                               R"("lens_model": "omni")", R"("model": "double_sphere")"}) {
         CAPTURE(model);
-        lineSays(refusalWith(kFourFields + model + "}"),
+        mentions(refusalWith(kFourFields + model + "}"),
                  "(allowed: a pinhole, or the coefficients as a list");
     }
-    lineSays(refusalWith(kFourFields + R"("is_fisheye": true, "distortion": [0.1, 0, 0, 0]})"),
+    mentions(refusalWith(kFourFields + R"("is_fisheye": true, "distortion": [0.1, 0, 0, 0]})"),
              "is_fisheye: true (allowed: a pinhole, or the coefficients as a list");
     CHECK(refusalWith(
               kFourFields +
@@ -277,9 +278,9 @@ TEST_CASE("Lenses that the extrinsics of a folder place over a metre apart are r
     CHECK(refused("[0.015, 0, 0]") == "\n");
     for (const char* millimetres : {"[9, 0, 0.3]", "[15, 0, 0]"}) {
         const std::string lines = refused(millimetres);
-        lineSays(lines, "intrinsics.json: extrinsics_topic_tf.Color.t: ");
-        lineSays(lines, "e.json: t: ");
-        lineSays(lines.substr(lines.find('\n')),
+        mentions(lines, "intrinsics.json: extrinsics_topic_tf.Color.t: ");
+        mentions(lines, "e.json: t: ");
+        mentions(lines.substr(lines.find('\n')),
                  " m between the lenses (allowed: at most 1 m; metres, not millimetres)");
     }
 }

@@ -4,6 +4,7 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/matroska_maker.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 #include "tests/support/refusal.h"
 
 #include <spdlog/spdlog.h>
@@ -97,7 +98,7 @@ TEST_CASE("A recording of an Azure Kinect gives depth, colour, lenses and the po
     CHECK(moved.x == doctest::Approx(-2.032));
     CHECK(moved.y == doctest::Approx(0.998));
     CHECK(moved.z == doctest::Approx(3.004));
-    CHECK(lineSays(camera.streams(), "not used: IR (mono16)"));
+    CHECK(mentions(camera.streams(), "not used: IR (mono16)"));
     const auto frame = camera.next();
     REQUIRE(frame);
     CHECK((*frame)->captureTime == doctest::Approx(5.001));
@@ -116,7 +117,7 @@ TEST_CASE("Depth and colour of an Azure Kinect are paired by their stamps and th
     BagCamera camera = playMkv(folder, file.bytes());
     CHECK(soundFrames(camera) == 3);
     file.tags.back().second = "soon";
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "tag K4A_DEPTH_DELAY_NS: 'soon'"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "tag K4A_DEPTH_DELAY_NS: 'soon'"));
 }
 
 TEST_CASE("Every mode of an Azure Kinect has the lens of its part of the sensor") {
@@ -160,7 +161,7 @@ TEST_CASE("A lens of an Azure Kinect projects as the SDK's formula does") {
                                          std::pair("[0.5,0.5,0.5,0.5,0,0,0,0,0,0,0,0,0,0.001]",
                                                    "CALIBRATION_LensDistortionModelRational6KT")}) {
         const std::string fault = mkvRefusal(folder, recorded(1, {.depth = numbers, .model = model}).bytes());
-        CHECK(lineSays(fault, "DEPTH/camera_info: lens model"));
+        CHECK(mentions(fault, "DEPTH/camera_info: lens model"));
     }
 }
 
@@ -187,37 +188,37 @@ TEST_CASE("Images of a Matroska track are read in every code of the recorder, an
     REQUIRE(other);
     CHECK(coloursOf(**other) == coloursOf(**frame)); // the same red
     file.tracks[0].fourcc = "H264";
-    CHECK(lineSays(playMkv(folder, file.bytes()).whyNoColour(), "COLOR (V_MS/VFW/FOURCC H264 Video)"));
+    CHECK(mentions(playMkv(folder, file.bytes()).whyNoColour(), "COLOR (V_MS/VFW/FOURCC H264 Video)"));
     file.tracks[1].fourcc = "YUY2"; // early recordings, little-endian
     file.blocks[1].data = filled(uint16_t{700}, kDepthPixels);
     BagCamera early = playMkv(folder, file.bytes());
     CHECK(firstDepth(early) == doctest::Approx(0.7));
     file.tracks[1].more = ebml(0x6D80, "");
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "topics: IR (mono16)"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "topics: IR (mono16)"));
     file.tracks = {file.tracks[2]}; // infrared alone
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "topics: IR (mono16)"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "topics: IR (mono16)"));
 }
 
 TEST_CASE("A Matroska file without its calibration, size or tracks is refused in one line") {
     const TemporaryFolder folder;
     MkvFile file = recorded(1);
     file.calibration = "";
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "DEPTH/camera_info: no attached calibration.json"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "DEPTH/camera_info: no attached calibration.json"));
     file.calibration = "{";
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "calibration.json: content: not JSON"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "calibration.json: content: not JSON"));
     file.calibration = R"({"CalibrationInformation":{"Cameras":[]}})";
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "no camera at CALIBRATION_CameraLocationD0"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "no camera at CALIBRATION_CameraLocationD0"));
     file = recorded(1, {.rotation = "[1,1,0,0,1,0,0,0,1]"});
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "Rt.Rotation"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "Rt.Rotation"));
     file = recorded(1);
     file.tracks[1].width = 319;
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "DEPTH/camera_info: 319x288, which no depth mode has"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "DEPTH/camera_info: 319x288, which no depth mode has"));
     file.tracks.clear();
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "no tracks"));
-    CHECK(lineSays(mkvRefusal(folder, recorded(0).bytes()),
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "no tracks"));
+    CHECK(mentions(mkvRefusal(folder, recorded(0).bytes()),
                    "no images but COLOR (sensor_msgs/Image, no messages)"));
-    CHECK(lineSays(mkvRefusal(folder, "\x1a\x45\xdf\xa3"), "content: "));
-    CHECK(lineSays(mkvRefusal(folder, ""), "content: "));
+    CHECK(mentions(mkvRefusal(folder, "\x1a\x45\xdf\xa3"), "content: "));
+    CHECK(mentions(mkvRefusal(folder, ""), "content: "));
 }
 
 TEST_CASE("Damage in a Matroska file loses the images of its cluster only, and is named") {
@@ -287,5 +288,5 @@ TEST_CASE("Sizes in a Matroska file that its bytes cannot hold are refused befor
     deep.insert(deep.find(file.cluster(0)), ebml(0x1254C367, ebml(0x7373, nested)));
     CHECK(playMkv(folder, deep).next());
     file.tracks[1].width = 0xFFFFFFFF;
-    CHECK(lineSays(mkvRefusal(folder, file.bytes()), "IR (mono16) (allowed: one of depth"));
+    CHECK(mentions(mkvRefusal(folder, file.bytes()), "IR (mono16) (allowed: one of depth"));
 }

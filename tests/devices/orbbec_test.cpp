@@ -2,6 +2,7 @@
 // Recordings of the Orbbec SDK, made by the serialisers of its messages (OrbbecSDK_v2, 3rdparty/rosbag).
 #include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -91,7 +92,7 @@ TEST_CASE("Depth and colour of an Orbbec recording are paired, with their lenses
     CHECK(moved.x == doctest::Approx(-2.0 + 0.01));
     CHECK(moved.y == doctest::Approx(1.0 - 0.002));
     CHECK(moved.z == doctest::Approx(3.003));
-    CHECK(lineSays(camera.streams(), std::string("not used: /cam/sensor_1/frameType_1 (mono16)")));
+    CHECK(mentions(camera.streams(), std::string("not used: /cam/sensor_1/frameType_1 (mono16)")));
     CHECK(camera.warnings().empty());
     for (int i = 0; i < 3; ++i) {
         const auto frame = camera.next();
@@ -118,12 +119,12 @@ TEST_CASE("The depth unit of an Orbbec recording is that of its precision level 
     CHECK(playStreams(folder, flexible).info().metresPerUnit == doctest::Approx(0.00025).epsilon(1e-9));
     BagMaker odd = depthOnly();
     addProperty(odd, 75, int32_t{7});
-    CHECK(lineSays(streamRefusal(folder, odd), "/cam/property: 75 (precision level) is 7 (allowed: 0 to 6)"));
+    CHECK(mentions(streamRefusal(folder, odd), "/cam/property: 75 (precision level) is 7 (allowed: 0 to 6)"));
     BagCamera camera = playStreams(folder, depthOnly());
     CHECK(camera.info().metresPerUnit == 0.001);
     REQUIRE(camera.warnings().size() == 1);
     CHECK(
-        lineSays(camera.warnings()[0], "no depth unit in /cam/property (75 or 176): depth is read as mill"));
+        mentions(camera.warnings()[0], "no depth unit in /cam/property (75 or 176): depth is read as mill"));
     CHECK(playStreams(folder, depthOnly(), {.scale = 0.002}).warnings().empty());
 }
 
@@ -145,19 +146,19 @@ TEST_CASE("The lens models of an Orbbec recording are those of its numbers") {
     }
     CHECK(lens(5).model == LensModel::Equidistant);
     CHECK(lens(5).distortion[3] == doctest::Approx(0.04));
-    CHECK(lineSays(streamRefusal(folder, depthOnly({.distortion = k, .model = 6})),
+    CHECK(mentions(streamRefusal(folder, depthOnly({.distortion = k, .model = 6})),
                    "/cam/streamProfileType_3: distortion model 6"));
-    CHECK(lineSays(streamRefusal(folder, depthOnly({.width = 8})), "8x5 where the images"));
+    CHECK(mentions(streamRefusal(folder, depthOnly({.width = 8})), "8x5 where the images"));
 }
 
 TEST_CASE("Disparity, and depth that the camera aligned to an unknown lens, are refused") {
     const TemporaryFolder folder;
     BagMaker disparity = depthOnly();
     addProperty(disparity, 85, false);
-    CHECK(lineSays(streamRefusal(folder, disparity), "/cam/property: 85 "));
+    CHECK(mentions(streamRefusal(folder, disparity), "/cam/property: 85 "));
     BagMaker onHost = depthOnly();
     addProperty(onHost, 3004, true);
-    CHECK(lineSays(streamRefusal(folder, onHost), "/cam/property: 3004 "));
+    CHECK(mentions(streamRefusal(folder, onHost), "/cam/property: 3004 "));
     addProperty(onHost, 85, true);
     CHECK(streamRefusal(folder, onHost).empty());
     for (const bool same : {false, true}) {
@@ -168,7 +169,7 @@ TEST_CASE("Disparity, and depth that the camera aligned to an unknown lens, are 
         if (same) {
             CHECK(playStreams(folder, aligned).info().registered);
         } else {
-            CHECK(lineSays(streamRefusal(folder, aligned), "/cam/property: 42 "));
+            CHECK(mentions(streamRefusal(folder, aligned), "/cam/property: 42 "));
         }
     }
     BagMaker turned = depthOnly({.rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}});
@@ -182,7 +183,7 @@ TEST_CASE("The pose of an Orbbec recording is that of its colour camera, not of 
     BagMaker pair = depthOnly({.rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .translation = {20, 0, 0}});
     addProfile(pair, 11, {.lens = {5.0f, 5.5f, 3.0f, 2.0f}});
     addImages(pair, "/cam/sensor_11/frameType_13", "rgb8", filledColour(1, 2, 3, kColumns * kRows));
-    CHECK(lineSays(streamRefusal(folder, pair), "extrinsics: missing"));
+    CHECK(mentions(streamRefusal(folder, pair), "extrinsics: missing"));
     addProfile(pair, 2, {.lens = {4.0f, 4.5f, 3.0f, 2.0f}});
     addRed(pair);
     BagCamera camera = playStreams(folder, pair);
@@ -199,11 +200,11 @@ TEST_CASE("Every encoding of depth of the Orbbec SDK is read, or named where it 
         BagCamera camera = playStreams(folder, depthOnly({}, encoding));
         CHECK(firstDepth(camera) == doctest::Approx(0.5));
     }
-    CHECK(lineSays(streamRefusal(folder, depthOnly({}, "rle")), "/cam/sensor_3/frameType_3 (rle)"));
+    CHECK(mentions(streamRefusal(folder, depthOnly({}, "rle")), "/cam/sensor_3/frameType_3 (rle)"));
     BagMaker infrared;
     addProfile(infrared, 1, {});
     addImages(infrared, "/cam/sensor_1/frameType_1", "z16", filled(uint16_t{9}, kColumns * kRows));
-    CHECK(lineSays(streamRefusal(folder, infrared), "/cam/sensor_1/frameType_1 (z16)"));
+    CHECK(mentions(streamRefusal(folder, infrared), "/cam/sensor_1/frameType_1 (z16)"));
     BagCamera damaged = playStreams(folder, depthOnly({}, "rvl")); // 500 everywhere is no RVL
     CHECK_THROWS_WITH_AS(damaged.next(), doctest::Contains("RVL: damaged"), BadInput);
     CHECK(damaged.skipped() == 3);
@@ -214,13 +215,13 @@ TEST_CASE("An Orbbec recording without colour's pose, images or whole messages i
     BagMaker poseless = depthOnly();
     addProfile(poseless, 2, {.lens = {5.0f, 5.5f, 3.0f, 2.0f}});
     addRed(poseless);
-    CHECK(lineSays(streamRefusal(folder, poseless), "extrinsics: missing"));
+    CHECK(mentions(streamRefusal(folder, poseless), "extrinsics: missing"));
     CHECK_FALSE(playStreams(folder, poseless, {.colour = "none"}).info().hasColour);
     BagMaker sheared = depthOnly({.rotation = {1, 1, 0, 0, 1, 0, 0, 0, 1}}); // no rotation
-    CHECK(lineSays(streamRefusal(folder, sheared), "/cam/streamProfileType_3: an invalid transform"));
+    CHECK(mentions(streamRefusal(folder, sheared), "/cam/streamProfileType_3: an invalid transform"));
     BagMaker empty;
     addProfile(empty, 3, {});
-    CHECK(lineSays(streamRefusal(folder, empty), "no images but /cam/streamProfileType_3"));
+    CHECK(mentions(streamRefusal(folder, empty), "no images but /cam/streamProfileType_3"));
     BagMaker cut;
     addProfile(cut, 3, {});
     cut.add("/cam/property", "custom_msg/OBProperty", 1.0, stampedHeader(1.0, "") + raw(uint32_t{75}));
@@ -238,6 +239,6 @@ TEST_CASE("An Orbbec recording without colour's pose, images or whole messages i
         cutProfile.add("/cam/streamProfileType_3", "custom_msg/OBStreamProfileInfo", 1.0,
                        profile.substr(0, size));
         addImages(cutProfile, kDepthTopic, "mono16", filled(uint16_t{500}, kColumns * kRows));
-        CHECK(lineSays(streamRefusal(folder, cutProfile), "/cam/streamProfileType_3: truncated"));
+        CHECK(mentions(streamRefusal(folder, cutProfile), "/cam/streamProfileType_3: truncated"));
     }
 }

@@ -2,6 +2,7 @@
 // Topics whose names hold words of depth and of colour: depth that is painted, or that is shown in colour's
 // image.
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -41,7 +42,7 @@ TEST_CASE("Depth that is painted is not colour, whatever word of colour its name
         CAPTURE(painted);
         BagCamera alone = playStreams(folder, withPainted(depth, painted, ""));
         CHECK_FALSE(alone.info().hasColour);
-        lineSays(alone.whyNoColour(), "named as painted depth; colour=" + painted + " plays it");
+        mentions(alone.whyNoColour(), "named as painted depth; colour=" + painted + " plays it");
         BagCamera both = playStreams(folder, withPainted(depth, painted, "/camera/image_raw"));
         CHECK(both.streamOptions() == ",depth=" + depth + ",colour=/camera/image_raw");
         CHECK(playStreams(folder, withPainted(depth, painted, ""), {.colour = painted}).info().hasColour);

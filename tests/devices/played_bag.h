@@ -33,14 +33,6 @@ inline std::string streamRefusal(const TemporaryFolder& folder, const BagMaker& 
     return testing::refusalOf([&] { playStreams(folder, maker, options); });
 }
 
-// Whether a line says this; the line is shown where it does not.
-inline bool lineSays(const std::string& line, const std::string& part) {
-    CAPTURE(line);
-    CAPTURE(part);
-    CHECK(line.find(part) != std::string::npos);
-    return line.find(part) != std::string::npos;
-}
-
 inline double firstDepth(BagCamera& camera) {
     const auto frame = camera.next();
     REQUIRE(frame);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses and lenses in text files of one matrix per image: their order and their unit.
 #include "devices/recorded/recorded_camera.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
+#include "tests/support/mentions.h"
 
 #include <algorithm>
 
@@ -44,8 +45,8 @@ std::string playedToEnd(const TemporaryFolder& folder) {
 TEST_CASE("A pose with its position in the last row is refused as written column by column") {
     const TemporaryFolder folder;
     writeScan(folder, {shifted(0.1), "1 0 0 0\n0 1 0 0\n0 0 1 0\n0.3 0 0 1\n", shifted(0.2)});
-    lineSays(playedToEnd(folder), "frame 1 skipped: ");
-    lineSays(playedToEnd(folder), "pose/1.txt: pose: its last row is not 0 0 0 1 (allowed: a matrix row by "
+    mentions(playedToEnd(folder), "frame 1 skipped: ");
+    mentions(playedToEnd(folder), "pose/1.txt: pose: its last row is not 0 0 0 1 (allowed: a matrix row by "
                                   "row, with the position in its last column)");
 }
 
@@ -57,10 +58,10 @@ TEST_CASE("A pose whose matrix is mirrored, scaled or sheared is refused in thes
                        "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf" + end,
                        "0.001 0.003 1.002 1\n-1 0.002 0 2\n0 -0.998 0 3" + end});
     const std::string played = playedToEnd(folder);
-    lineSays(played, "pose/1.txt: pose: mirrored (allowed: a rotation matrix and a position)");
-    lineSays(played, "pose/2.txt: pose: scaled by 1.1 (allowed: a rotation matrix");
-    lineSays(played, "pose/3.txt: pose: sheared (allowed: ");
-    lineSays(played, "pose/4.txt: pose: not finite (allowed: ");
+    mentions(played, "pose/1.txt: pose: mirrored (allowed: a rotation matrix and a position)");
+    mentions(played, "pose/2.txt: pose: scaled by 1.1 (allowed: a rotation matrix");
+    mentions(played, "pose/3.txt: pose: sheared (allowed: ");
+    mentions(played, "pose/4.txt: pose: not finite (allowed: ");
     CHECK(played.find("pose/0.txt") == std::string::npos);
     CHECK(played.find("pose/5.txt") == std::string::npos); // few digits
 }
@@ -70,7 +71,7 @@ TEST_CASE("A pose of BOP whose matrix is mirrored is refused with the image and 
     addPair(bop, "depth/0.png", "rgb/0.png", 500);
     bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 3, 0, 6, 2, 0, 0, 1], "depth_scale": 1,
         "cam_R_w2c": [0, 1, 0, 0, 0, -1, 1, 0, 0], "cam_t_w2c": [0, 0, 0]}})");
-    lineSays(recordingRefusal(bop.path()), "scene_camera.json: 0.cam_R_w2c: mirrored (allowed: a rotation");
+    mentions(recordingRefusal(bop.path()), "scene_camera.json: 0.cam_R_w2c: mirrored (allowed: a rotation");
 }
 
 TEST_CASE("A quaternion of poses.txt whose length is not 1 is refused with its length and the order") {
@@ -80,9 +81,9 @@ TEST_CASE("A quaternion of poses.txt whose length is not 1 is refused with its l
         folder.write("poses.txt", "0 0 0 0 " + quaternion + "\n0.1 0 0 0 0 0 0 1\n");
         return recordingRefusal(folder.path());
     };
-    lineSays(refusal("0 1 2 3"), "poses.txt: line 1: 0 0 0 0 0 1 2 3 (allowed: a quaternion qx qy qz qw, in "
+    mentions(refusal("0 1 2 3"), "poses.txt: line 1: 0 0 0 0 0 1 2 3 (allowed: a quaternion qx qy qz qw, in "
                                  "this order, of length 1; its length is 3.742)");
-    lineSays(refusal("0 0 0 0.93"), "its length is 0.93");
+    mentions(refusal("0 0 0 0.93"), "its length is 0.93");
     for (const char* few : {"0 0.7 0 0.7", "0.6 0.6 0.6 0"}) { // digits
         CHECK(refusal(few) == "");
     }
@@ -91,12 +92,12 @@ TEST_CASE("A quaternion of poses.txt whose length is not 1 is refused with its l
 TEST_CASE("A lens that is written column by column is refused as such") {
     const TemporaryFolder folder;
     writeScan(folder, {shifted(0.0)}, "7 0 0 0\n0 7 0 0\n3 2 1 0\n0 0 0 1\n");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "intrinsic_depth.txt: matrix: written column by column (allowed: fx 0 cx, 0 fy cy, 0 0 1");
     const TemporaryFolder bop;
     addPair(bop, "depth/0.png", "rgb/0.png", 500);
     bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 0, 0, 6, 0, 3, 2, 1], "depth_scale": 1}})");
-    lineSays(
+    mentions(
         recordingRefusal(bop.path()),
         "scene_camera.json: 0.cam_K: written column by column (allowed: row by row, fx 0 cx, 0 fy cy, 0 0 1");
 }
@@ -112,7 +113,7 @@ TEST_CASE(
         std::ranges::replace(text, ',', '\n');
         addPair(matrix, "depth/0.png", "rgb/0.png", 500);
         matrix.write("cam_K.txt", text + "\n");
-        lineSays(recordingRefusal(matrix.path()),
+        mentions(recordingRefusal(matrix.path()),
                  "cam_K.txt: matrix: " + std::string(fault) + " (allowed: fx 0 cx");
         std::ranges::replace(text, '\n', ' ');
         addPair(bop, "depth/0.png", "rgb/0.png", 500);
@@ -121,7 +122,7 @@ TEST_CASE(
             list.replace(at, list[at + 1] == ' ' ? 2 : 1, ",");
         }
         bop.write("scene_camera.json", R"({"0": {"cam_K": [)" + list + R"(], "depth_scale": 1}})");
-        lineSays(recordingRefusal(bop.path()),
+        mentions(recordingRefusal(bop.path()),
                  "scene_camera.json: 0.cam_K: " + std::string(fault) + " (allowed: row by");
         addPair(frames, "frame-000000.depth.png", "frame-000000.color.png", 500);
         for (size_t at = info.find(','); at != std::string::npos; at = info.find(',')) {
@@ -130,7 +131,7 @@ TEST_CASE(
         frames.write("info.txt", "m_depthWidth = 7\nm_depthHeight = 5\nm_depthShift = 1000\n"
                                  "m_calibrationDepthIntrinsic = " +
                                      info + " 0 0 0 0 1\n");
-        lineSays(recordingRefusal(frames.path(), {.colour = "none"}),
+        mentions(recordingRefusal(frames.path(), {.colour = "none"}),
                  "info.txt: m_calibrationDepthIntrinsic: " + info);
     }
 }
@@ -144,9 +145,9 @@ TEST_CASE("Poses of images in millimetres have a warning, and those in metres ha
     CHECK(warned({shifted(0.0), shifted(0.1), shifted(0.3)}) == "");
     CHECK(warned({shifted(20.0), shifted(20.9), shifted(20.95)}) == "");
     CHECK(warned({shifted(0.0), shifted(3.0), shifted(3.01), shifted(3.02)}) == ""); // one jump
-    lineSays(warned({shifted(0.0), shifted(10.0), shifted(20.0)}),
+    mentions(warned({shifted(0.0), shifted(10.0), shifted(20.0)}),
              "the pose of 1.png: the camera moves 10 m from one image to the next (poses in millimetres?)");
-    lineSays(warned({shifted(1500.0), shifted(1500.2)}),
+    mentions(warned({shifted(1500.0), shifted(1500.2)}),
              "the pose of 0.png: the camera is 1500 m from the origin (poses in millimetres?)");
 }
 
@@ -170,7 +171,7 @@ TEST_CASE("A poses.txt whose comment names its columns in another order is refus
           "\n# t [s], x, y, z, qw, qx, qy, qz",
           "# timestamp tx ty tz qx qy qz qw\n# here: t tx ty tz qw qx qy qz"}) {
         CAPTURE(head);
-        lineSays(refusal(head), "(allowed: columns in the order t tx ty tz qx qy qz qw)");
+        mentions(refusal(head), "(allowed: columns in the order t tx ty tz qx qy qz qw)");
     }
     for (const char* head :
          {"# timestamp tx ty tz qx qy qz qw", "# ground truth trajectory", "# t x y z qx qy qz qw", "#", "",
@@ -207,5 +208,5 @@ TEST_CASE("Frames of ScanNet's benchmark play with both lenses under their names
     REQUIRE((*frame)->baseTcamera);
     CHECK((*frame)->baseTcamera->position.x == doctest::Approx(0.25));
     folder.write("extrinsics_color.txt", shifted(0.1));
-    lineSays(recordingRefusal(folder.path()), "extrinsics_color.txt: matrix: not the identity");
+    mentions(recordingRefusal(folder.path()), "extrinsics_color.txt: matrix: not the identity");
 }

@@ -3,6 +3,7 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/database_maker.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 #include "tests/support/refusal.h"
 
 #include <limits>
@@ -97,7 +98,7 @@ TEST_CASE("A database of the RealSense SDK gives depth and colour with its units
     CHECK(moved.y == doctest::Approx(1.0 - 0.002));
     CHECK(moved.z == doctest::Approx(3.003));
     CHECK(camera.warnings().empty());
-    CHECK(lineSays(camera.streams(), "not used: /device_0/sensor_0/Infrared_1/image/data (8UC1)"));
+    CHECK(mentions(camera.streams(), "not used: /device_0/sensor_0/Infrared_1/image/data (8UC1)"));
     checkPairs(camera);
 }
 
@@ -112,7 +113,7 @@ TEST_CASE("Messages of a database that are compressed one by one give the same f
     for (DatabaseMessage& message : all) {
         message.bytes = message.topic == kDepthStream + "/camera_info" ? bomb : message.bytes;
     }
-    CHECK(lineSays(databaseRefusal(folder, all), "camera_info: zstd: no size"));
+    CHECK(mentions(databaseRefusal(folder, all), "camera_info: zstd: no size"));
 }
 
 TEST_CASE("Without the option, the depth unit is that of the first image's metadata, otherwise a warning is "
@@ -123,7 +124,7 @@ TEST_CASE("Without the option, the depth unit is that of the first image's metad
     const BagCamera unknown = playDatabase(folder, without(bare, "metadata"));
     CHECK(unknown.info().metresPerUnit == 0.001);
     REQUIRE(unknown.warnings().size() == 1);
-    CHECK(lineSays(unknown.warnings()[0], "no option Depth_Units"));
+    CHECK(mentions(unknown.warnings()[0], "no option Depth_Units"));
     Messages changed = sdkMessages();
     addText(changed, "/device_0/sensor_0/option/Depth_Units/value", "0.001000", 5 * kTick / 2);
     BagCamera camera = playDatabase(folder, changed);
@@ -145,7 +146,7 @@ TEST_CASE("Every lens model of the RealSense SDK is read by its name") {
     const std::string four = "0.01,0.02,0.003,0.004,0";
     CHECK(playDatabase(folder, sdkMessages(lensWords("6.25", "Kannala Brandt4", four))).info().depth.model ==
           LensModel::Equidistant);
-    CHECK(lineSays(databaseRefusal(folder, sdkMessages(lensWords("6.25", "Ftheta", k))),
+    CHECK(mentions(databaseRefusal(folder, sdkMessages(lensWords("6.25", "Ftheta", k))),
                    "camera_info: model: Ftheta"));
 }
 
@@ -159,16 +160,16 @@ TEST_CASE("A damaged text of a RealSense database is named, and never read as an
           std::pair(size + "fx=6" + rest, "coeffs: 4 numbers"),
           std::pair("width=7.5;height=5;fx=6" + whole, "width: 7.5"),
           std::pair(size + "fx=nan" + whole, "fx: 'nan'")}) {
-        CHECK(lineSays(databaseRefusal(folder, sdkMessages(lens)), std::string("camera_info: ") + fault));
+        CHECK(mentions(databaseRefusal(folder, sdkMessages(lens)), std::string("camera_info: ") + fault));
     }
-    CHECK(lineSays(databaseRefusal(folder, without(sdkMessages(), "/tf/")), "extrinsics: missing"));
+    CHECK(mentions(databaseRefusal(folder, without(sdkMessages(), "/tf/")), "extrinsics: missing"));
     Messages sheared = without(sdkMessages(), "Color_0/tf/");
     addText(sheared, kColourStream + "/tf/ref_0", "rotation=1,1,0,0,1,0,0,0,1;translation=0,0,0");
-    CHECK(lineSays(databaseRefusal(folder, sheared), "extrinsics: missing"));
+    CHECK(mentions(databaseRefusal(folder, sheared), "extrinsics: missing"));
     Messages far = without(sdkMessages(), "Color_0/tf/");
     addText(far, kColourStream + "/tf/ref_0", "rotation=1,0,0,0,1,0,0,0,1;translation=15,0,0");
-    CHECK(lineSays(databaseRefusal(folder, far), kColourStream + "/tf/ref_0: 15 m between the lenses"));
-    CHECK(lineSays(databaseRefusal(folder, without(sdkMessages(), "/image/data")), "no images but"));
+    CHECK(mentions(databaseRefusal(folder, far), kColourStream + "/tf/ref_0: 15 m between the lenses"));
+    CHECK(mentions(databaseRefusal(folder, without(sdkMessages(), "/image/data")), "no images but"));
 }
 
 TEST_CASE("The suffix of a compressed transport does not change where a RealSense stream has lens and unit") {

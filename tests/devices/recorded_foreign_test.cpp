@@ -2,8 +2,9 @@
 // Folders as other programs and systems leave them: damaged first images, other names, files of archives.
 #include "devices/recorded/recorded_camera.h"
 #include "devices/recorded/unread_poses.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 #include <doctest/doctest.h>
 
@@ -65,7 +66,7 @@ TEST_CASE("A damaged first image loses its own frame where a layout takes sizes 
         CHECK(playedDepths(folder->path()) == Depths{502});
         folder->write("depth/1.png", "");
         folder->write("depth/2.png", "");
-        lineSays(recordingRefusal(folder->path()), "depth/0.png: image: ");
+        mentions(recordingRefusal(folder->path()), "depth/0.png: image: ");
     }
 }
 
@@ -94,7 +95,7 @@ TEST_CASE(
             CHECK(playedDepths(folder.path()) == Depths{500, 501, 502});
             CHECK(RecordedCamera(folder.path()).info().depth.fy == 6.5);
             std::filesystem::rename(folder.path() / lens, folder.path() / "my_lens.json");
-            lineSays(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
+            mentions(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
             const SourceOptions alone{.intrinsics = folder.path() / "my_lens.json"};
             CHECK(playedDepths(folder.path(), alone) == Depths{500, 501, 502});
         }
@@ -102,7 +103,7 @@ TEST_CASE(
     const TemporaryFolder bare;
     writeDepth(bare.path() / "depth/0.png", kSmallWidth, kSmallHeight, 500);
     bare.write("intrinsic.json", kOpen3dLens);
-    lineSays(recordingRefusal(bare.path()),
+    mentions(recordingRefusal(bare.path()),
              "colour images: none (allowed: a folder color, rgb, image or images");
     CHECK(playedDepths(bare.path(), {.colour = "none"}) == Depths{500});
 }
@@ -114,7 +115,7 @@ TEST_CASE("A lens of another size than colour is named with its file") {
     for (const char* name : {"color/0.png", "color/1.png", "color/2.png"}) {
         writeColour(folder.path() / name, 14, 10, 1, 2, 3);
     }
-    lineSays(recordingRefusal(folder.path()), ": camera_intrinsic.json: color.width, color.height: ");
+    mentions(recordingRefusal(folder.path()), ": camera_intrinsic.json: color.width, color.height: ");
 }
 
 TEST_CASE("Images frame-N with a file of calibration have its lenses and unit, not those of 7-Scenes") {
@@ -141,7 +142,7 @@ TEST_CASE("Images frame-N with a file of calibration have its lenses and unit, n
 TEST_CASE("Images frame-N have the calibration beside their folder, as in 12-Scenes, however it is named") {
     const TemporaryFolder scene;
     addFrames(scene, 0, "data/");
-    lineSays(recordingRefusal(scene.path() / "data"),
+    mentions(recordingRefusal(scene.path() / "data"),
              "of the size of this layout's usual lens; or intrinsics=FILE");
     scene.write("info.txt", kSensorInfo);
     for (const char* name : {"data", "data/", "./data"}) {
@@ -180,14 +181,14 @@ TEST_CASE("A calibration of images frame-N that cannot be used is named by its k
         folder.write("info.txt", text.replace(text.find(part), part.size(), with));
         return recordingRefusal(folder.path());
     };
-    lineSays(refused("m_depthShift = 5000", ""), "info.txt: m_depthShift: missing (allowed: 1 number)");
-    lineSays(refused("5000", "0.001"), "m_depthShift: 0.001 (allowed: units per metre");
-    lineSays(refused("6 0 3 0 0 6.5", "0 0 3 0 0 6.5"), "m_calibrationDepthIntrinsic: 0 0 3");
-    lineSays(refused("12 0 6", "x 0 6"), "m_calibrationColorIntrinsic: x 0 6");
-    lineSays(refused("Extrinsic = 1", "Extrinsic = 0.9"), "m_calibrationColorExtrinsic: 0.9");
-    lineSays(refused("m_depthWidth = 7", "m_depthWidth = 7000"),
+    mentions(refused("m_depthShift = 5000", ""), "info.txt: m_depthShift: missing (allowed: 1 number)");
+    mentions(refused("5000", "0.001"), "m_depthShift: 0.001 (allowed: units per metre");
+    mentions(refused("6 0 3 0 0 6.5", "0 0 3 0 0 6.5"), "m_calibrationDepthIntrinsic: 0 0 3");
+    mentions(refused("12 0 6", "x 0 6"), "m_calibrationColorIntrinsic: x 0 6");
+    mentions(refused("Extrinsic = 1", "Extrinsic = 0.9"), "m_calibrationColorExtrinsic: 0.9");
+    mentions(refused("m_depthWidth = 7", "m_depthWidth = 7000"),
              "m_depthWidth: 7000 (allowed: a whole number");
-    lineSays(refused("m_depthWidth = 7", "m_depthWidth = 8"), "frames: none");
+    mentions(refused("m_depthWidth = 7", "m_depthWidth = 8"), "frames: none");
 }
 
 TEST_CASE("Part of a sequence of images frame-N plays, whatever its first number is") {
@@ -206,8 +207,8 @@ TEST_CASE(
         writeSmallRecording(folder, 1);
         folder.write(name, pointer);
         CAPTURE(name);
-        lineSays(recordingRefusal(folder.path()), name);
-        lineSays(recordingRefusal(folder.path()), "Git LFS pointer");
+        mentions(recordingRefusal(folder.path()), name);
+        mentions(recordingRefusal(folder.path()), "Git LFS pointer");
     }
     const TemporaryFolder folder;
     addThreePairs(folder, "color");
@@ -227,7 +228,7 @@ TEST_CASE("Colour in a format that is not read is named as such") {
         const TemporaryFolder folder;
         writeSmallRecording(folder, 1);
         folder.write("rgb/0.png", text);
-        lineSays(recordingRefusal(folder.path()), "rgb/0.png: " + std::string(fault));
+        mentions(recordingRefusal(folder.path()), "rgb/0.png: " + std::string(fault));
     }
 }
 
@@ -240,29 +241,29 @@ TEST_CASE(
         folder.write("intrinsics.json", text.replace(text.find(part), part.size(), with));
         return recordingRefusal(folder.path());
     };
-    lineSays(refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
+    mentions(refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
              "fy: -6.25 (allowed: a number above 0; y points down here: give a negative fy without its sign; "
              "where y points up in the world, too, as at ICL-NUIM, negate ty, qx and qz of poses.txt)");
-    lineSays(refused(R"("fx": 6.5)", R"("K": [6.5, 0, 3, 0, 6.25, 2, 0, 0, 1])"),
+    mentions(refused(R"("fx": 6.5)", R"("K": [6.5, 0, 3, 0, 6.25, 2, 0, 0, 1])"),
              "K: [6.5,0,3,0,6.25,2,0,0,1] (allowed: fx, fy, cx and cy, each under its name");
-    lineSays(refused(R"("fx": 6.5)", R"("camera_matrix": {"data": []})"),
+    mentions(refused(R"("fx": 6.5)", R"("camera_matrix": {"data": []})"),
              "camera_matrix: an object (allowed: fx");
-    lineSays(refused(R"("fx": 6.5,)", ""), "fx: missing");
+    mentions(refused(R"("fx": 6.5,)", ""), "fx: missing");
     folder.write("intrinsics.json", kSmallIntrinsics);
     std::filesystem::rename(folder / "associations.txt", folder / "associate.txt");
-    lineSays(recordingRefusal(folder.path()), "associations.txt: missing; associate.txt is there (allowed: ");
+    mentions(recordingRefusal(folder.path()), "associations.txt: missing; associate.txt is there (allowed: ");
 }
 
 TEST_CASE("A folder around a recording is refused with the recording's name, up to two levels below") {
     const TemporaryFolder folder;
     const auto names = [&](const std::string& inner) {
-        lineSays(recordingRefusal(folder.path()),
+        mentions(recordingRefusal(folder.path()),
                  "no recording itself (allowed: one inside of it: " + (folder.path() / inner).string() + ")");
     };
     folder.write("readme.txt", "unpacked");
     folder.write(".hidden/intrinsics.json", "{}");
     folder.write("z/b/c/intrinsics.json", "{}"); // too deep
-    lineSays(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
+    mentions(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
     folder.write("test/000001/scene_camera.json", "{}");
     names("test/000001");
     folder.write("m/a.bag", "");
@@ -281,8 +282,8 @@ TEST_CASE("Poses in a file that is not read are named, and those that are read a
         folder.write("objects.txt", "");
         CHECK(unreadPoses(folder.path()) == "");
         folder.write(name, "");
-        lineSays(unreadPoses(folder.path()), advice);
-        lineSays(unreadPoses(folder.path()), "the camera counts as fixed");
+        mentions(unreadPoses(folder.path()), advice);
+        mentions(unreadPoses(folder.path()), "the camera counts as fixed");
     }
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);

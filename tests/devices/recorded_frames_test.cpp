@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images frame-N: which calibration they have, and which poses.
 #include "devices/recorded/recorded_camera.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -59,12 +60,12 @@ TEST_CASE(
     "Images frame-N without a calibration have a warning that the lens is the nominal one of 7-Scenes") {
     const TemporaryFolder scene;
     addFrame(scene.path() / "data");
-    lineSays(nominalWarning(scene.path() / "data"), "info.txt or intrinsics=FILE");
+    mentions(nominalWarning(scene.path() / "data"), "info.txt or intrinsics=FILE");
     scene.write("data/info.txt", kFrameInfo);
     CHECK(nominalWarning(scene.path() / "data") == "");
     std::string other = kFrameInfo;
     scene.write("data/info.txt", other.insert(other.find("Intrinsic") + 9, "s"));
-    lineSays(nominalWarning(scene.path() / "data"), "info.txt has no m_calibrationDepthIntrinsic");
+    mentions(nominalWarning(scene.path() / "data"), "info.txt has no m_calibrationDepthIntrinsic");
 }
 
 TEST_CASE(
@@ -72,9 +73,9 @@ TEST_CASE(
     const TemporaryFolder scene;
     addFrame(scene.path() / "data");
     scene.write("data/info.txt", asUtf16(kFrameInfo));
-    lineSays(recordingRefusal(scene.path() / "data", kFramesOnly), "info.txt: content: UTF-16 text");
+    mentions(recordingRefusal(scene.path() / "data", kFramesOnly), "info.txt: content: UTF-16 text");
     fs::rename(scene.path() / "data/info.txt", scene.path() / "info.txt");
-    lineSays(nominalWarning(scene.path() / "data"), "info.txt: content: UTF-16 text");
+    mentions(nominalWarning(scene.path() / "data"), "info.txt: content: UTF-16 text");
 }
 
 TEST_CASE("Poses of images frame-N belong to their number, whatever word their depth has") {
@@ -109,8 +110,8 @@ TEST_CASE("Images frame-N have the lens of a text file of one matrix that lies w
         CHECK(camera.warnings().empty());
         CHECK(camera.next());
         folder.write(name, "1 2 3\n");
-        lineSays(RecordedCamera(folder.path() / "scene").warnings().at(0), "nominal lens of 7-Scenes");
-        lineSays(RecordedCamera(folder.path() / "scene").warnings().at(0),
+        mentions(RecordedCamera(folder.path() / "scene").warnings().at(0), "nominal lens of 7-Scenes");
+        mentions(RecordedCamera(folder.path() / "scene").warnings().at(0),
                  "intrinsics.txt: matrix: 3 numbers");
     }
 }

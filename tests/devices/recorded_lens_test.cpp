@@ -3,6 +3,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -20,39 +21,39 @@ std::string lensRefusal(const std::string& lens) {
 
 TEST_CASE(
     "A lens file in YAML is refused as not JSON, with its first line and where the fields are documented") {
-    lineSays(lensRefusal("\nimage_width: 640\nimage_height: 480\n"),
+    mentions(lensRefusal("\nimage_width: 640\nimage_height: 480\n"),
              "lens.yaml: syntax: not JSON, begins with image_width: 640 (allowed: JSON with the fields of "
              "docs/guide/recordings.md; YAML calibrations are not read)");
-    lineSays(lensRefusal("%YAML:1.0\n---\n"), "not JSON, begins with %YAML:1.0 (allowed");
-    lineSays(lensRefusal("# Camera list"), "not JSON, begins with # Camera list (allowed");
-    lineSays(lensRefusal(R"({"width": 7,,})"), "(allowed: JSON (which has no NaN or infinity))");
+    mentions(lensRefusal("%YAML:1.0\n---\n"), "not JSON, begins with %YAML:1.0 (allowed");
+    mentions(lensRefusal("# Camera list"), "not JSON, begins with # Camera list (allowed");
+    mentions(lensRefusal(R"({"width": 7,,})"), "(allowed: JSON (which has no NaN or infinity))");
 }
 
 TEST_CASE("A field of a lens under the name of another program is refused with the name that is read") {
     const std::string size = R"({"width": 7, "height": 5, )", focal = R"("fx": 6, "fy": 6, )";
-    lineSays(lensRefusal(size + focal + R"("ppx": 3, "ppy": 2})"), "ppx: 3 (allowed: the name cx)");
-    lineSays(lensRefusal(size + focal + R"("cx": 3, "ppy": 2})"), "ppy: 2 (allowed: the name cy)");
-    lineSays(lensRefusal(R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
+    mentions(lensRefusal(size + focal + R"("ppx": 3, "ppy": 2})"), "ppx: 3 (allowed: the name cx)");
+    mentions(lensRefusal(size + focal + R"("cx": 3, "ppy": 2})"), "ppy: 2 (allowed: the name cy)");
+    mentions(lensRefusal(R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
              "w: 7 (allowed: the name width)");
-    lineSays(
+    mentions(
         lensRefusal(R"({"camera": {"w": 7, "h": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2, "scale": 6553.5}})"),
         "(allowed: width, height, fx, fy, cx and cy at the top level of the file)");
-    lineSays(lensRefusal(R"({"width": 7, "image_height": 5})"), "image_height: 5 (allowed: the name height)");
-    lineSays(lensRefusal(size + R"("fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
+    mentions(lensRefusal(R"({"width": 7, "image_height": 5})"), "image_height: 5 (allowed: the name height)");
+    mentions(lensRefusal(size + R"("fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
              "fl_x: 6 (allowed: the name fx)");
-    lineSays(lensRefusal(size + R"("K": [6, 0, 3, 0, 6, 2, 0, 0, 1]})"),
+    mentions(lensRefusal(size + R"("K": [6, 0, 3, 0, 6, 2, 0, 0, 1]})"),
              "(allowed: fx, fy, cx and cy, each under");
 }
 
 TEST_CASE("Images without a lens file are refused with the option that names one, and play with it") {
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "rgb/0.png", 500);
-    lineSays(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
+    mentions(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
     folder.write("K.txt", "6 0 3\n0 6 2\n0 0 1\n");
     folder.write("objects_pose.json", "{}");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "/intrinsics.json: file: missing; K.txt is there, which is not read by itself (allowed: ");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "or intrinsics=FILE after the folder name (its images pair by "
              "an index, or by number in depth/ and rgb/, color/, image/ or images/)");
     folder.write("lens.json", kSmallIntrinsics);
@@ -66,7 +67,7 @@ TEST_CASE(
     addPair(folder, "depth/000000.png", "color/000000.png", 500);
     addPair(folder, "depth/000001.png", "color/000001.png", 600);
     folder.write("intrinsics.json", kSmallIntrinsics);
-    lineSays(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name, also its own "
+    mentions(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name, also its own "
                                               "intrinsics.json, which pairs images by number");
     std::string fifths = kSmallIntrinsics;
     folder.write("intrinsics.json", fifths.replace(fifths.find("0.001"), 5, "0.0002"));
@@ -81,7 +82,7 @@ TEST_CASE(
     folder.write(
         "intrinsics.json",
         stamped.insert(stamped.find('{') + 1, R"("depth_stamps_s": [0, 0.1], "color_stamps_s": [0, 0.1], )"));
-    lineSays(recordingRefusal(folder.path(), {.intrinsics = other}), "associations.txt: missing");
+    mentions(recordingRefusal(folder.path(), {.intrinsics = other}), "associations.txt: missing");
 }
 
 TEST_CASE("Files of lenses of COLMAP, Kalibr and Record3D are named where no lens is read") {
@@ -90,7 +91,7 @@ TEST_CASE("Files of lenses of COLMAP, Kalibr and Record3D are named where no len
         const TemporaryFolder folder;
         addPair(folder, "depth/0.png", "rgb/0.png", 500);
         folder.write(name, "{}");
-        lineSays(recordingRefusal(folder.path()),
+        mentions(recordingRefusal(folder.path()),
                  "missing; " + std::string(name) + " is there, which is not read by itself");
     }
 }
@@ -99,7 +100,7 @@ TEST_CASE("Folders of Nerfstudio are refused with the name of their lens file, a
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "images/0.png", 500);
     folder.write("transforms.json", R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "missing; transforms.json is there, which is not read by itself");
     folder.write("mine.json", kSmallIntrinsics);
     CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "mine.json"}) ==
@@ -122,10 +123,10 @@ TEST_CASE(
     RecordedCamera other(folder.path(), {.intrinsics = folder.path() / "mine.json"});
     CHECK(other.info().depth.fy == 6.25);
     folder.write("associations.txt", "");
-    lineSays(recordingRefusal(folder.path()), "missing; cam_K.txt is there, which is not read by itself");
+    mentions(recordingRefusal(folder.path()), "missing; cam_K.txt is there, which is not read by itself");
     std::filesystem::remove(folder.path() / "associations.txt");
     std::filesystem::remove_all(folder.path() / "rgb");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "colour images: none (allowed: a folder color, rgb, image or images");
     CHECK(playedDepths(folder.path(), {.colour = "none"}) == std::vector<uint16_t>{501});
 }
@@ -165,7 +166,7 @@ TEST_CASE("Depth images with numbers play with a lens alone where there is no fo
     folder.write("lens.json", kSmallIntrinsics);
     const std::filesystem::path lens = folder.path() / "lens.json";
     CHECK(playedDepths(folder.path(), {.colour = "none", .intrinsics = lens}) == std::vector<uint16_t>{500});
-    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}), "or colour=none after the folder name");
+    mentions(recordingRefusal(folder.path(), {.intrinsics = lens}), "or colour=none after the folder name");
     std::string depthOnly = kSmallIntrinsics;
     folder.write("lens.json", depthOnly.insert(depthOnly.find('{') + 1, R"("has_color": false, )"));
     CHECK(playedDepths(folder.path(), {.intrinsics = lens}) == std::vector<uint16_t>{500});
@@ -181,11 +182,11 @@ TEST_CASE("A lens of another size of image has a warning in the recording of a f
         return warnings.empty() ? "" : warnings[0];
     };
     CHECK(warned("7", "7") == "");
-    lineSays(warned("\"cx\": 3", "\"cx\": 319.5"),
+    mentions(warned("\"cx\": 3", "\"cx\": 319.5"),
              "the lens of depth has fx 6.5, fy 6.2 and the principal point (319.5, 2.0) in images of 7x5: it "
              "may be that of another image size");
-    lineSays(warned("\"cy\": 2", "\"cy\": -2"), "(3.0, -2.0)");
-    lineSays(warned("\"fx\": 6.5", "\"fx\": 65"), "fx 65.0");
+    mentions(warned("\"cy\": 2", "\"cy\": -2"), "(3.0, -2.0)");
+    mentions(warned("\"fx\": 6.5", "\"fx\": 65"), "fx 65.0");
     CHECK(warned("\"width\": 7", R"("projection": "equal_angles", "width": 7)") == "");
 }
 
@@ -220,9 +221,9 @@ TEST_CASE("A lens matrix whose principal point is that of smaller images has a w
         const std::string all = warned(point.first, point.second);
         for (const char* matrix :
              {"camera-intrinsics.txt", "intrinsic_depth.txt", "scene_camera.json: cam_K"}) {
-            lineSays(all, std::string(matrix) + ": the principal point (" + point.first);
+            mentions(all, std::string(matrix) + ": the principal point (" + point.first);
         }
-        lineSays(all, " % of the width and the height of images of 64x48: it may be the lens of another");
+        mentions(all, " % of the width and the height of images of 64x48: it may be the lens of another");
     }
     // In the middle, and of crops.
     for (const auto& point :
@@ -276,7 +277,7 @@ TEST_CASE("The skew of a lens matrix of a folder has a warning with the matrix a
     for (const char* matrix :
          {"camera-intrinsics.txt", "info.txt: m_calibrationDepthIntrinsic", "intrinsic_depth.txt",
           "scene_camera.json: cam_K", "camera_intrinsic.json: intrinsic_matrix", "intrinsic.json: skew"}) {
-        lineSays(all, matrix + rest);
+        mentions(all, matrix + rest);
     }
 }
 
@@ -290,5 +291,5 @@ TEST_CASE("A lens of another size of image has a warning in a bag") {
     CHECK(warned({7.0, 7.0, 3.5, 2.5}).empty());
     const auto warnings = warned({52.5, 52.5, 31.9, 23.9});
     REQUIRE(warnings.size() == 1);
-    lineSays(warnings[0], "the lens of depth has fx 52.5, fy 52.5 and the principal point (31.9, 23.9)");
+    mentions(warnings[0], "the lens of depth has fx 52.5, fy 52.5 and the principal point (31.9, 23.9)");
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Folders without an index: images in order of the numbers in their names, and pairs by them.
 #include "devices/recorded/recorded_camera.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 #include <bit>
 
@@ -159,7 +160,7 @@ TEST_CASE("Images of several cameras in one folder are refused, however long the
         writeNamed(folder, names, names);
         CAPTURE(names[0]);
         for (const char* colour : {"", "none"}) {
-            lineSays(recordingRefusal(folder.path(), {.colour = colour}),
+            mentions(recordingRefusal(folder.path(), {.colour = colour}),
                      "names of images: " + names[0] + ".png and " + names[1] +
                          ".png, as of several cameras: the same 2 last numbers behind 2 others (allowed: the "
                          "images of one camera)");
@@ -195,7 +196,7 @@ TEST_CASE("A counter that begins anew each second, or in each episode of equal l
                                            "851112060943_0", "851112060943_1", "851112060943_2"};
     const TemporaryFolder folder;
     writeNamed(folder, serials, serials);
-    lineSays(recordingRefusal(folder.path()), "the same 3 last numbers behind 2 others");
+    mentions(recordingRefusal(folder.path()), "the same 3 last numbers behind 2 others");
 }
 
 TEST_CASE("A number in front of the image's kind counts where no name ends in a number") {
@@ -267,14 +268,14 @@ TEST_CASE("Numbered images of a format that is not read are refused with the fir
         addPair(folder, "a/0.png", "rgb/0.png", 500);
         folder.write(std::string("depth/") + name, "x");
         folder.write("depth/readme.txt", "x");
-        lineSays(recordingRefusal(folder.path(), lensIn(folder)),
+        mentions(recordingRefusal(folder.path(), lensIn(folder)),
                  "depth: depth images: none that is read; there is " + std::string(name) +
                      " (allowed: .png, .pgm, .tif");
     }
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "a/0.png", 500);
     folder.write("rgb/r-1.ppm", "x");
-    lineSays(
+    mentions(
         recordingRefusal(folder.path(), lensIn(folder)),
         "rgb: colour images: none that is read; there is r-1.ppm (allowed: .png, .jpg, .jpeg with a number");
 }

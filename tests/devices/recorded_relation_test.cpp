@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What of a folder stays whose lens is replaced by a file: how colour relates to depth, and the unit.
 #include "devices/recorded/recorded_camera.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -101,7 +102,7 @@ TEST_CASE("Two lenses whose q_xyzw turns colour away from depth are refused with
     std::string text = kOwnLenses;
     const std::string unit = "[0, 0, 0, 1]";
     folder.write("intrinsics.json", text.replace(text.find(unit), unit.size(), "[0.9999, 0, 0, 0.01]"));
-    lineSays(recordingRefusal(folder.path()), "intrinsics.json: extrinsics_topic_tf.Color.q_xyzw: "
+    mentions(recordingRefusal(folder.path()), "intrinsics.json: extrinsics_topic_tf.Color.q_xyzw: "
                                               "[0.9999,0,0,0.01] (allowed: x y z w, in this order, with ");
 }
 
@@ -111,8 +112,8 @@ TEST_CASE("A file of one lens is refused where the folder's relation of depth an
     folder.write("info.txt", kTwoInfos + "m_calibrationColorExtrinsic = 0.9 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
     folder.write("lens.json", kLensAlone + "}");
     const std::string refused = recordingRefusal(folder.path(), {.intrinsics = folder.path() / "lens.json"});
-    lineSays(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
-    lineSays(refused, "m_calibrationColorExtrinsic: 0.9");
+    mentions(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
+    mentions(refused, "m_calibrationColorExtrinsic: 0.9");
     CHECK(playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})").registered);
     CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
 }
@@ -126,7 +127,7 @@ TEST_CASE("A relation of colour that cannot be read is refused with and without 
     folder.write("lens.json", kLensAlone + "}");
     const SourceOptions options{.intrinsics = folder.path() / "lens.json"};
     const std::string refused = recordingRefusal(folder.path(), options);
-    lineSays(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
+    mentions(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
     folder.write("associations.txt", "0.0 rgb/0.png 0.0 depth/0.png\n");
     CHECK(recordingRefusal(folder.path(), options) == refused);
 }
@@ -164,7 +165,7 @@ TEST_CASE(
     folder.write("lens.json", R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2,
                                   "registered_to_color": true})");
     const std::filesystem::path lens = folder.path() / "lens.json";
-    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}),
+    mentions(recordingRefusal(folder.path(), {.intrinsics = lens}),
              "camera_intrinsic.json: depth_scale: 0.001 (allowed: units per metre, 10 to 1000000)");
     CHECK(playedDepths(folder.path(), {.intrinsics = lens, .scale = 0.001}).size() == 1);
     CHECK(playedInfo(folder, kLensAlone + "}").metresPerUnit == 0.001);

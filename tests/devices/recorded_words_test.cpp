@@ -2,8 +2,9 @@
 // What the program says about folders that it cannot read as they are meant.
 #include "devices/recorded/recorded_camera.h"
 #include "devices/recorded/unread_poses.h"
-#include "tests/devices/played_bag.h"
+#include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -31,9 +32,9 @@ TEST_CASE("Stamps that look like milli, micro or nanoseconds are named by that u
         writeStamps(folder, perSecond);
         const auto warnings = RecordedCamera(folder.path()).warnings();
         REQUIRE(warnings.size() == 1);
-        lineSays(warnings[0], std::string("stamps are read as seconds, but look like ") + unit);
+        mentions(warnings[0], std::string("stamps are read as seconds, but look like ") + unit);
         folder.write("poses.txt", "1700000000.0 0 0 0 0 0 0 1\n1700000000.1 0.01 0 0 0 0 0 1\n");
-        lineSays(recordingRefusal(folder.path()), std::string("(stamps of images in ") + unit + "?)");
+        mentions(recordingRefusal(folder.path()), std::string("(stamps of images in ") + unit + "?)");
     }
 }
 
@@ -63,7 +64,7 @@ TEST_CASE("Poses whose stamps look like nanoseconds of those of the images are n
     const TemporaryFolder folder;
     writeStamps(folder, 1);
     folder.write("poses.txt", "1700000000000000000 0 0 0 0 0 0 1\n1700000000100000000 0.01 0 0 0 0 0 1\n");
-    lineSays(recordingRefusal(folder.path()), "(stamps of poses.txt in nanoseconds?)");
+    mentions(recordingRefusal(folder.path()), "(stamps of poses.txt in nanoseconds?)");
     folder.write("poses.txt", "1600000000 0 0 0 0 0 0 1\n1600000000.1 0.01 0 0 0 0 0 1\n");
     CHECK(recordingRefusal(folder.path()).find("seconds?") == std::string::npos);
 }
@@ -72,7 +73,7 @@ TEST_CASE("Decimal commas in an index and in poses are named as such") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);
     folder.write("associations.txt", "0,0 rgb/0.png 0,0 depth/0.png\n");
-    lineSays(recordingRefusal(folder.path()), "line 1 has a stamp with a comma; numbers have decimal points");
+    mentions(recordingRefusal(folder.path()), "line 1 has a stamp with a comma; numbers have decimal points");
     std::filesystem::remove(folder.path() / "associations.txt");
     folder.write("depth.txt", "0,0 depth/0.png\n");
     folder.write("rgb.txt", "0,0 rgb/0.png\n");
@@ -81,7 +82,7 @@ TEST_CASE("Decimal commas in an index and in poses are named as such") {
     CHECK(log.count("depth.txt: line 1 has a stamp with a comma; numbers have decimal points: skipped") == 1);
     folder.write("associations.txt", "0.0 rgb/0.png 0.0 depth/0.png\n");
     folder.write("poses.txt", "0,0 0 0 0 0 0 0 1\n");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "(allowed: eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
 }
 
@@ -99,7 +100,7 @@ TEST_CASE("Columns between commas, semicolons or quotation marks are named once,
         folder.write("rgb.txt", "0.0 rgb/0.png\n");
         folder.write("depth.txt", std::string("# t path\n") + line + "\n" + line + "\n" + line + "\n");
         const testing::Listening log;
-        lineSays(recordingRefusal(folder.path()), "no pair of images");
+        mentions(recordingRefusal(folder.path()), "no pair of images");
         CHECK(log.count("depth.txt: line 2 " + std::string(fault) + ": skipped, as are 2 others; it is " +
                         line) == 1);
         CHECK(log.count(": skipped") == 1);
@@ -107,14 +108,14 @@ TEST_CASE("Columns between commas, semicolons or quotation marks are named once,
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);
     folder.write("associations.txt", "0.0,rgb/0.png,0.0,depth/0.png\n");
-    lineSays(recordingRefusal(folder.path()), "line 1 has columns between ','; they stand between spaces");
+    mentions(recordingRefusal(folder.path()), "line 1 has columns between ','; they stand between spaces");
 }
 
 TEST_CASE("Poses in Fathom's format beside images that have no stamps are named with what they need") {
     const TemporaryFolder folder;
     folder.write("poses.txt", "0 0 0 0 0 0 0 1\n");
     folder.write("odometry.txt", "");
-    lineSays(unreadPoses(folder.path()),
+    mentions(unreadPoses(folder.path()),
              "poses.txt is not read (it is read by the stamps of an index: intrinsics.json and "
              "associations.txt, or depth.txt and rgb.txt)");
 }
@@ -137,7 +138,7 @@ TEST_CASE("Images of associations.txt whose names do not tell depth are refused 
     folder.write("intrinsics.json", kSmallIntrinsics);
     addPair(folder, "disp/0.png", "left/0.png", 500);
     folder.write("associations.txt", "0.0 disp/0.png 0.0 left/0.png\n");
-    lineSays(recordingRefusal(folder.path()),
+    mentions(recordingRefusal(folder.path()),
              "(colour comes first in associations.txt where no path names depth)");
     folder.write("associations.txt", "0.0 left/0.png 0.0 disp/0.png\n");
     CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
@@ -148,7 +149,7 @@ TEST_CASE("A folder of point clouds is refused with the name of one, as clouds p
         const TemporaryFolder folder;
         folder.write(name, "x");
         folder.write("readme.txt", "x");
-        lineSays(recordingRefusal(folder.path()), "a folder of point clouds (allowed: one cloud, " +
+        mentions(recordingRefusal(folder.path()), "a folder of point clouds (allowed: one cloud, " +
                                                       (folder.path() / name).string() +
                                                       "; or clouds in a bag)");
     }
@@ -159,7 +160,7 @@ TEST_CASE("Text files of a folder in UTF-16 are refused as such") {
         const TemporaryFolder folder;
         writeSmallRecording(folder, 1);
         folder.write(name, std::string("\xff\xfe{\0 \0", 6));
-        lineSays(recordingRefusal(folder.path()),
+        mentions(recordingRefusal(folder.path()),
                  std::string(name) + ": content: UTF-16 text: save it as UTF-8");
     }
 }
@@ -173,11 +174,11 @@ TEST_CASE("A folder whose depth images lie elsewhere than in depth/ is refused w
                                 {.intrinsics = lens ? (folder.path() / "lens.json").string() : ""});
     };
     for (const bool lens : {false, true}) {
-        lineSays(refusal("lowres_depth/1.png", lens),
+        mentions(refusal("lowres_depth/1.png", lens),
                  "depth images: in lowres_depth (allowed: in a folder depth, ");
-        lineSays(refusal("depths/frame_1.png", lens), "depth images: in depths (");
-        lineSays(refusal("results/depth000000.png", lens), "depth images: in results (");
-        lineSays(refusal("000_depth.png", lens), "depth images: in the folder itself (");
+        mentions(refusal("depths/frame_1.png", lens), "depth images: in depths (");
+        mentions(refusal("results/depth000000.png", lens), "depth images: in results (");
+        mentions(refusal("000_depth.png", lens), "depth images: in the folder itself (");
         CHECK(refusal("disp/1.png", lens).find("depth images: in") == std::string::npos);
     }
 }
@@ -187,7 +188,7 @@ TEST_CASE("Files of poses and of single images are not named as the lens of a fo
     addPair(folder, "depth/0.png", "rgb/0.png", 500);
     for (const char* name : {"poses/cam_0000.txt", "labels/cam_0001.json", "depth/camera_0001.npy"}) {
         folder.write(name, "{}");
-        lineSays(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
+        mentions(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
     }
 }
 
@@ -214,9 +215,9 @@ TEST_CASE("A key that intrinsics.json gives twice is refused by its path, also i
         return recordingRefusal(folder.path());
     };
     const std::string lens = kSmallIntrinsics.substr(0, kSmallIntrinsics.size() - 1);
-    lineSays(refused(lens + R"(, "fx": 13})"),
+    mentions(refused(lens + R"(, "fx": 13})"),
              "intrinsics.json: fx: given twice (allowed: each key once in an object)");
-    lineSays(refused(lens + R"(, "more": [[{"a": 1}, {"a": {"b": 1, "c": 2, "b": 3}}]]})"),
+    mentions(refused(lens + R"(, "more": [[{"a": 1}, {"a": {"b": 1, "c": 2, "b": 3}}]]})"),
              "intrinsics.json: more.a.b: given twice (allowed: ");
     CHECK(refused(lens + R"(, "more": [{"a": {"b": 1}, "b": {"a": 1}}, {"a": {"b": 1}}, 1]})") == "");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lenses and poses of a bag that options give: intrinsics=FILE, extrinsics=FILE, info=TOPIC.
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -45,7 +46,7 @@ TEST_CASE("A file of one lens for depth without a lens keeps the recorded relati
         british{.intrinsics = folder.path() / "british.json"};
     checkApart(playStreams(folder, lenslessDepth("depth", kOtherLens, true), one).info());
     const BagMaker unrelated = lenslessDepth("depth", kOtherLens, false);
-    lineSays(streamRefusal(folder, unrelated, one),
+    mentions(streamRefusal(folder, unrelated, one),
              "color: missing (allowed: blocks depth and color, or registered_to_color: true");
     CHECK(playStreams(folder, unrelated, registered).info().registered);
     CHECK(playStreams(folder, unrelated, british).info().registered);
@@ -56,7 +57,7 @@ TEST_CASE("A file of one lens for depth without a lens keeps the recorded relati
     const CameraInfo same = playStreams(folder, lenslessDepth("color", near, false), one).info();
     CHECK(same.registered);
     CHECK(same.colour.fx == 7.0);
-    lineSays(streamRefusal(folder, lenslessDepth("color", kOtherLens, false), one), "color: missing");
+    mentions(streamRefusal(folder, lenslessDepth("color", kOtherLens, false), one), "color: missing");
 }
 
 TEST_CASE("A file of one lens plays a bag without any lens as registered, unless its frames differ") {
@@ -72,7 +73,7 @@ TEST_CASE("A file of one lens plays a bag without any lens as registered, unless
         const SourceOptions one{.intrinsics = folder.path() / "one.json"};
         const std::string refused = streamRefusal(folder, maker, one);
         CHECK(refused.empty() == (std::string(frame) != "color"));
-        CHECK((refused.empty() || lineSays(refused, "color: missing (allowed: blocks depth and color")));
+        CHECK((refused.empty() || mentions(refused, "color: missing (allowed: blocks depth and color")));
         CHECK((!refused.empty() || playStreams(folder, maker, one).info().registered));
     }
 }
@@ -81,7 +82,7 @@ TEST_CASE("The topic of info=TOPIC is the lens of depth, and of colour only with
     const TemporaryFolder folder;
     const SourceOptions asked{.info = "/calib/depth_info"};
     checkApart(playStreams(folder, lenslessDepth("depth", kOtherLens, true), asked).info());
-    lineSays(streamRefusal(folder, lenslessDepth("color", kOtherLens, false), asked), "extrinsics: missing");
+    mentions(streamRefusal(folder, lenslessDepth("color", kOtherLens, false), asked), "extrinsics: missing");
     BagMaker bare = lenslessDepth("color", kOtherLens, false);
     for (const double t : {1.0, 1.1, 1.2}) { // colour without a lens of its own
         bare.add("/left/rgb/image_raw", "sensor_msgs/Image", t, imageMessage(t, redImage("color")));
@@ -94,7 +95,7 @@ TEST_CASE("The topic of info=TOPIC is the lens of depth, and of colour only with
     addStream(own, "/cam/depth/image", depthImage(500));
     own.add("/calib/depth_info", "sensor_msgs/CameraInfo", 1.0, infoMessage(kOtherLens));
     CHECK(playStreams(folder, own, asked).info().depth.fx == 5.0);
-    lineSays(streamRefusal(folder, own, {.info = "/cam/depth/image"}),
+    mentions(streamRefusal(folder, own, {.info = "/cam/depth/image"}),
              "info: /cam/depth/image is sensor_msgs/Image (allowed: a topic of sensor_msgs/CameraInfo)");
 }
 
@@ -107,9 +108,9 @@ TEST_CASE("Extrinsics of a file that are over a metre are refused with the file,
         return streamRefusal(folder, maker,
                              {.info = "/calib/depth_info", .extrinsics = folder.path() / name});
     };
-    lineSays(refused("mm.json"), "mm.json: t: 20 m between the lenses (allowed: at most 1 m; metres, not "
+    mentions(refused("mm.json"), "mm.json: t: 20 m between the lenses (allowed: at most 1 m; metres, not "
                                  "millimetres)");
-    lineSays(refused("far.json"), "far.json: t: 1.273 m between the lenses");
+    mentions(refused("far.json"), "far.json: t: 1.273 m between the lenses");
 }
 
 TEST_CASE("Extrinsics of a file whose q_xyzw has w first, or no unit length, are refused with the order") {
@@ -120,11 +121,11 @@ TEST_CASE("Extrinsics of a file whose q_xyzw has w first, or no unit length, are
         return streamRefusal(folder, maker,
                              {.info = "/calib/depth_info", .extrinsics = folder.path() / "e.json"});
     };
-    lineSays(refused("1, 0, 0, 0"),
+    mentions(refused("1, 0, 0, 0"),
              "e.json: q_xyzw: [1,0,0,0] (allowed: x y z w, in this order, with optical "
              "axes within 90 degrees of each other)");
-    lineSays(refused("0.9999, 0.01, 0.003, -0.005"), "e.json: q_xyzw: ");
-    lineSays(refused("0, 0, 10, 0.5"), "e.json: q_xyzw: [0,0,10,0.5] (allowed: a quaternion x y z w, in this "
+    mentions(refused("0.9999, 0.01, 0.003, -0.005"), "e.json: q_xyzw: ");
+    mentions(refused("0, 0, 10, 0.5"), "e.json: q_xyzw: [0,0,10,0.5] (allowed: a quaternion x y z w, in this "
                                        "order, of length 1; its length is 10.01)");
     CHECK(refused("0, 0, 0.7071068, 0.7071068") == ""); // a roll
     CHECK(refused("0, 0, 1, 0") == "");
@@ -145,7 +146,7 @@ TEST_CASE("Aligned depth with another camera's lens than colour has a warning th
         return all;
     };
     const std::string aligned = "/camera/aligned_depth_to_color/image_raw";
-    lineSays(warned(aligned, "camera", {5.0, 5.0, 3.5, 2.5}),
+    mentions(warned(aligned, "camera", {5.0, 5.0, 3.5, 2.5}),
              aligned + " (fx 5.0) is named as aligned to colour, but has another lens than "
                        "/camera/color/image_raw (fx 7.0)");
     CHECK(warned(aligned, "camera", {7.0, 7.0, 3.5, 2.5}) == "");

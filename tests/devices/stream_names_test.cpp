@@ -2,6 +2,7 @@
 // Topics that are not depth by their names, though their encoding may be.
 #include "devices/bag/stream_names.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -79,7 +80,7 @@ TEST_CASE(
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/cam/depth_gradient", depthImage(2000));
-    lineSays(streamRefusal(folder, maker), "whose name is not one of infrared, inverse depth, or images "
+    mentions(streamRefusal(folder, maker), "whose name is not one of infrared, inverse depth, or images "
                                            "computed from depth (edges, gradient); mono16");
 }
 
@@ -115,7 +116,7 @@ TEST_CASE("Floating point under names without a word of depth is played with a w
     };
     const auto found = warnings("/optical_flow", "camera");
     REQUIRE(found.size() == 1);
-    lineSays(found[0], "/optical_flow: taken as depth by its encoding alone, 32FC1");
+    mentions(found[0], "/optical_flow: taken as depth by its encoding alone, 32FC1");
     CHECK(warnings("/optical_flow", "camera_depth_optical_frame").empty());
     CHECK(warnings("/cam/depth/image_raw", "camera").empty());
 }

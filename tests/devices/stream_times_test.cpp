@@ -4,6 +4,7 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/mentions.h"
 
 #include <functional>
 
@@ -134,9 +135,9 @@ TEST_CASE("A duration without a depth image is named as such, not the start") {
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/c/depth/image_raw", depthImage(500));
-    lineSays(streamRefusal(folder, maker, {.start = 0.05, .duration = 0.02}),
+    mentions(streamRefusal(folder, maker, {.start = 0.05, .duration = 0.02}),
              "duration: 0.020000 (allowed: a time with at least one depth image)");
-    lineSays(streamRefusal(folder, maker, {.start = 0.5, .duration = 0.02}),
+    mentions(streamRefusal(folder, maker, {.start = 0.5, .duration = 0.02}),
              "start: 0.500000 (allowed: a time before the last depth image)");
 }
 
@@ -223,7 +224,7 @@ TEST_CASE("Stamps of a bag that count frames or are in another unit give way to 
         }
         BagCamera camera = playStreams(folder, maker);
         REQUIRE(camera.warnings().size() == 1);
-        lineSays(camera.warnings()[0], "/c/depth/image: its stamps are no seconds");
+        mentions(camera.warnings()[0], "/c/depth/image: its stamps are no seconds");
         double last = 0.0;
         uint32_t played = 0;
         for (; const auto frame = camera.next(); ++played) {

@@ -2,6 +2,7 @@
 // Poses of a moving camera that are not read are named, in folders and in bags.
 #include "devices/recorded/unread_poses.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/mentions.h"
 
 #include <algorithm>
 
@@ -64,9 +65,9 @@ TEST_CASE("A text of one pose per line is named as poses that are not read, what
                              "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n\n"}) {     // rows on lines of their own
         CAPTURE(line);
         const std::string text = std::string(line) + line + line;
-        lineSays(namedPoses("a.txt", text), "the camera counts as fixed: a.txt is not read");
-        lineSays(namedPoses("b.any.freiburg", "# header\n" + text), "b.any.freiburg is not read");
-        lineSays(namedPoses("c.csv", "time,x,y,z,a,b,c,d\n" + text), "c.csv is not read");
+        mentions(namedPoses("a.txt", text), "the camera counts as fixed: a.txt is not read");
+        mentions(namedPoses("b.any.freiburg", "# header\n" + text), "b.any.freiburg is not read");
+        mentions(namedPoses("c.csv", "time,x,y,z,a,b,c,d\n" + text), "c.csv is not read");
     }
 }
 
@@ -95,12 +96,12 @@ TEST_CASE("Poses in files and folders of other programs are named by their names
           "trajectory.mat", "camera_pose.csv", "CameraTrajectory.txt", "c2w.npy", "w2c.json", "cameras.npz",
           "cameras_sphere.npz", "cameras_linear_init.npz", "000012.pose"}) {
         CAPTURE(name);
-        lineSays(namedPoses(name, "x"), std::string(name) + " is not read");
+        mentions(namedPoses(name, "x"), std::string(name) + " is not read");
     }
     for (const char* name : {"extrinsics", "cameras", "camera_poses", "camera_pose", "cam2world", "extrinsic",
                              "poses_gt", "camera_to_world", "odom", "trajectories", "w2c"}) {
         CAPTURE(name);
-        lineSays(namedPoses(std::string(name) + "/0.txt", "x"), std::string(name) + " is not read");
+        mentions(namedPoses(std::string(name) + "/0.txt", "x"), std::string(name) + " is not read");
     }
     for (const char* name : {"object_poses.json", "hand_pose.csv", "human_pose/0.json", "composed.json",
                              "images.json", "cameras.txt", "joint_trajectory.csv", "purpose.txt",
@@ -115,15 +116,15 @@ TEST_CASE("Poses that lie one level below, or in sparse/0, are named with their 
     for (const char* name : {"scene/trajectory.log", "sparse/images.bin", "sparse/0/images.bin",
                              "colmap/sparse/0/images.bin", "results/CameraTrajectory.txt", "scene/a.log"}) {
         CAPTURE(name);
-        lineSays(namedPoses(name, log + log), std::string(name) + " is not read");
+        mentions(namedPoses(name, log + log), std::string(name) + " is not read");
     }
     const TemporaryFolder folder;
     folder.write("sparse/0/cameras.txt", "1 PINHOLE 64 48 60 60 31.5 23.5\n");
     CHECK(unreadPoses(folder.path()) == "");
     folder.write("sparse/0/images.txt", "1 1 0 0 0 0 0 0 1 0.png\n\n");
-    lineSays(unreadPoses(folder.path()), "sparse/0/images.txt is not read");
+    mentions(unreadPoses(folder.path()), "sparse/0/images.txt is not read");
     folder.write("trajectory.log", log + log);
-    lineSays(unreadPoses(folder.path()), ": trajectory.log is not read");
+    mentions(unreadPoses(folder.path()), ": trajectory.log is not read");
     for (const char* name : {"objects/trajectory.log", "imu/a.log", "a/b/trajectory.log", ".git/traj.txt"}) {
         CAPTURE(name);
         CHECK(namedPoses(name, log + log) == "");
@@ -146,7 +147,7 @@ TEST_CASE("Poses under a key of JSON are named, whatever the name of the file") 
           {"dataset.json", frames + "transform_matrix" + matrix},
           {"meta_data.json", frames + "camtoworld" + matrix}}) {
         CAPTURE(file.first);
-        lineSays(namedPoses(file.first, file.second), std::string(file.first) + " is not read");
+        mentions(namedPoses(file.first, file.second), std::string(file.first) + " is not read");
     }
     const std::string deep(100'000, '[');
     for (const std::string& text :
@@ -177,18 +178,18 @@ TEST_CASE(
     };
     for (const char* key : {"pose", "T_wc", "extrinsic"}) {
         CAPTURE(key);
-        lineSays(namedPoses("meta.json", rows(key, {0.0, 0.1, 0.2})), "meta.json is not read");
-        lineSays(
+        mentions(namedPoses("meta.json", rows(key, {0.0, 0.1, 0.2})), "meta.json is not read");
+        mentions(
             namedPoses("meta.json", frames(key, "[1, 0, 0, ", ", 0, 1, 0, 0, 0, 0, 1, 0]", {0.0, 0.1, 0.2})),
             "meta.json is not read");
         CHECK(namedPoses("meta.json", rows(key, {0.1, 0.1, 0.1})) == ""); // at rest
         CHECK(namedPoses("rig.json", rows(key, {0.0, 0.1})) == "");       // of two cameras
     }
-    lineSays(
+    mentions(
         namedPoses("a.json", R"({"extrinsics": [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [1, 0, 0, 1, 0, 1, 0, 0,
                                      0, 0, 1, 0], [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]]})"),
         "a.json is not read");
-    lineSays(namedPoses("a.json", R"([{"position": [0, 0, 0], "rotation": [0, 0, 0, 1]},
+    mentions(namedPoses("a.json", R"([{"position": [0, 0, 0], "rotation": [0, 0, 0, 1]},
                                       {"position": [0, 0, 1], "rotation": [0, 0, 1, 0]},
                                       {"position": [0, 0, 2], "rotation": [1, 0, 0, 0]}])"),
              "a.json is not read");
@@ -197,7 +198,7 @@ TEST_CASE(
     CHECK(namedPoses("scene.json", R"({"assets": )" + rows("matrix", {0.0, 0.1, 0.2}) + "}") == "");
     CHECK(namedPoses("calib.json", rows("T", {0.0, 0.1, 0.2})) == ""); // of three cameras
     CHECK(namedPoses("rig.json", rows("T", {0.0, 0.1, 0.2}), 8) == "");
-    lineSays(namedPoses("rig.json", rows("T", {0.0, 0.1, 0.2}), 6), "rig.json is not read");
+    mentions(namedPoses("rig.json", rows("T", {0.0, 0.1, 0.2}), 6), "rig.json is not read");
     CHECK(namedPoses("meta.json", R"({"objects": )" + rows("pose", {0.0, 0.1, 0.2}) + "}") == "");
     CHECK(namedPoses("meta.json", frames("K_4", "[[600, 0, 320, ", "], [0, 600, 240, 0], [0, 0, 1, 0]]",
                                          {0.0, 0.1, 0.2})) == "");
@@ -211,7 +212,7 @@ TEST_CASE("A bag whose tf moves depth's frame has a warning that names the link 
         addLink(maker, "/tf", 1.0 + 0.1 * i, "world", "arm", 0.07 * i);
     }
     const std::string lines = fixedWarnings(maker);
-    lineSays(lines, "the camera counts as fixed, but /tf moves 'camera' in 'world'");
+    mentions(lines, "the camera counts as fixed, but /tf moves 'camera' in 'world'");
     CHECK(std::ranges::count(lines, '\n') == 1);
 }
 
@@ -222,7 +223,7 @@ TEST_CASE("A bag whose camera starts to move late in a long tf has the warning, 
         addLink(maker, "/tf", 1.0 + 0.0001 * i, "base", "wheel", 0.001 * i);
         addLink(maker, "/tf", 1.0 + 0.0001 * i, "camera", "optical", 0.0);
     }
-    lineSays(fixedWarnings(maker), "/tf moves 'camera' in 'world'");
+    mentions(fixedWarnings(maker), "/tf moves 'camera' in 'world'");
 }
 
 TEST_CASE("A bag whose camera does not move in tf has no warning") {
@@ -248,7 +249,7 @@ TEST_CASE("A bag with a topic of poses that move has a warning that names it, un
     for (const char* type : {"geometry_msgs/PoseStamped", "geometry_msgs/PoseWithCovarianceStamped",
                              "geometry_msgs/TransformStamped", "nav_msgs/Odometry"}) {
         CAPTURE(type);
-        lineSays(warned("/vicon/camera", type, 0.05),
+        mentions(warned("/vicon/camera", type, 0.05),
                  "the camera counts as fixed: if the poses of /vicon/camera are its own, they are not read");
         CHECK(warned("/vicon/camera", type, 0.0) == "");
         for (const char* other : {"/fathom/tool_pose", "/goal_pose", "/object/pose", "/ee_pose"}) {

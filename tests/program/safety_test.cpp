@@ -2,6 +2,7 @@
 // Inputs that must not be taken silently: absurd numbers, outputs over inputs, runs without protection,
 // registrations that cannot be right.
 #include "tests/rig/program_refusal.h"
+#include "tests/support/mentions.h"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
@@ -9,6 +10,7 @@
 #include <unistd.h>
 
 using namespace fathom;
+using fathom::testing::mentions;
 
 namespace {
 
@@ -20,13 +22,6 @@ struct SimpleStage : Stage {
         hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.41}}});
     }
 };
-
-bool has(const std::string& text, const std::string& part) {
-    CAPTURE(text);
-    CAPTURE(part);
-    CHECK(text.find(part) != std::string::npos);
-    return text.find(part) != std::string::npos;
-}
 
 } // namespace
 
@@ -116,7 +111,7 @@ TEST_CASE("No command replaces a file that it reads") {
         const ProgramRun run = runFathom(command);
         CHECK(run.exitCode == 2);
         REQUIRE(run.errorLines().size() == 1);
-        has(run.err, "the input itself");
+        mentions(run.err, "the input itself");
         CHECK(stage.read(file) == before);
     };
     const auto at = [&](const char* name) { return (stage / name).string(); };
@@ -145,7 +140,7 @@ TEST_CASE("No command replaces a file that it reads") {
     const ProgramRun run =
         runFathom({"replay", scene, "--source", mcap, "--out", at("mcap_out"), "--trace", mcap});
     CHECK(run.exitCode == 2);
-    has(run.err, mcap + ": output: the input itself");
+    mentions(run.err, mcap + ": output: the input itself");
     CHECK(stage.read("mcap/recording.mcap") == before);
     SceneText withPath;
     withPath.hand = "path: hand.csv";
@@ -162,7 +157,7 @@ TEST_CASE("Spheres of a needle of 0.5 m by 1 nm are made in seconds and contain 
     const ProgramRun run = runFathom(
         {"spheres", (stage / "needle.obj").string(), "--out", (stage / "needle.sph").string()}, setting);
     CHECK(run.exitCode == 0);
-    has(run.out, "every surface sample is inside a sphere");
+    mentions(run.out, "every surface sample is inside a sphere");
 }
 
 TEST_CASE("A tool whose spheres touch more than a million pairs of regions is refused in one line") {
@@ -177,7 +172,7 @@ TEST_CASE("A tool whose spheres touch more than a million pairs of regions is re
     const ProgramRun run = runFathom(stage.command());
     CHECK(run.exitCode != 0);
     REQUIRE(run.errorLines().size() == 2); // the first questions spheres of 5 m
-    has(run.errorLines().back(), "4096 leaf spheres touch more than 1048576 pairs");
+    mentions(run.errorLines().back(), "4096 leaf spheres touch more than 1048576 pairs");
 }
 
 TEST_CASE("Grey images under a hue gate are a warning with class and cause, and exit code 1 with --strict") {
@@ -189,12 +184,12 @@ TEST_CASE("Grey images under a hue gate are a warning with class and cause, and 
     CHECK(run.exitCode == 0);
     const auto warnings = nlohmann::json::parse(stage.read("out/summary.json")).at("warnings");
     REQUIRE(warnings.size() == 1);
-    has(warnings[0], "fixture 'red' has no region in any frame: the colour image is grey");
-    has(run.err, "fixture 'red'");
-    has(run.out, "warning      fixture 'red'");
+    mentions(warnings[0], "fixture 'red' has no region in any frame: the colour image is grey");
+    mentions(run.err, "fixture 'red'");
+    mentions(run.out, "warning      fixture 'red'");
     const ProgramRun strict = runFathom(stage.command({"--strict"}));
     CHECK(strict.exitCode == 1);
-    has(strict.err, "--strict: 1 warnings; the first: fixture 'red'");
+    mentions(strict.err, "--strict: 1 warnings; the first: fixture 'red'");
     const SimpleStage good;
     CHECK(good.replay({"--strict"}).summary.at("warnings").empty());
 }
@@ -208,7 +203,7 @@ TEST_CASE("Frames without a pose are warnings of the run") {
     const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));
     CHECK(summary.at("frames").at("skipped") == 2);
     REQUIRE(summary.at("warnings").size() == 2);
-    has(summary.at("warnings")[0], "frame 2 skipped: its stamp 0.067 s is 0.067 s after the last pose");
+    mentions(summary.at("warnings")[0], "frame 2 skipped: its stamp 0.067 s is 0.067 s after the last pose");
 }
 
 TEST_CASE("register ends with exit code 1 and names the worst pairs of a scaled or mirrored frame") {
@@ -220,8 +215,8 @@ TEST_CASE("register ends with exit code 1 and names the worst pairs of a scaled 
                                           "--out", (stage / "pose.yaml").string()});
         CHECK(run.exitCode == 1);
         REQUIRE(run.errorLines().size() == 1);
-        has(run.err, part);
-        has(run.err, "worst line ");
+        mentions(run.err, part);
+        mentions(run.err, "worst line ");
         CHECK(run.out.find("base_T_camera") == std::string::npos);
         CHECK_FALSE(std::filesystem::exists(stage / "pose.yaml"));
     };
