@@ -3,6 +3,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/replace_in.h"
 
 #include <doctest/doctest.h>
 #include <set>
@@ -38,13 +39,6 @@ void checkSkipsFrameOne(const char* what, Damage&& damage) {
     CHECK_FALSE(camera.next().has_value());
 }
 
-void replaceInIndex(const TemporaryFolder& folder, const std::string& from, const std::string& to) {
-    std::string text = folder.read("associations.txt");
-    const size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    folder.write("associations.txt", text.replace(at, from.size(), to));
-}
-
 void truncate(const std::filesystem::path& file, uintmax_t left) {
     std::filesystem::resize_file(file, std::min(left, std::filesystem::file_size(file)));
 }
@@ -54,7 +48,8 @@ void truncate(const std::filesystem::path& file, uintmax_t left) {
 TEST_CASE("Comments and blank lines of the index are skipped, and the depth stamp is the capture time") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 3);
-    replaceInIndex(folder, "0.100000 rgb/1.png 0.100000", "# note\n\n0.111 rgb/1.png 0.125");
+    testing::replaceIn(folder / "associations.txt", "0.100000 rgb/1.png 0.100000",
+                       "# note\n\n0.111 rgb/1.png 0.125");
     RecordedCamera camera(folder.path());
     camera.next();
     const std::optional<Frame> frame = camera.next();
@@ -111,7 +106,7 @@ TEST_CASE("An image of another size or pixel type skips only its frame") {
 TEST_CASE("A malformed line, an invalid stamp or one that goes back skips only its frame") {
     const std::string line = "0.100000 rgb/1.png 0.100000 depth/1.png";
     const auto replaced = [&](const std::string& by) {
-        return [&line, by](const TemporaryFolder& f) { replaceInIndex(f, line, by); };
+        return [&line, by](const auto& f) { testing::replaceIn(f / "associations.txt", line, by); };
     };
     checkSkipsFrameOne("depth stamp back", replaced("0.1 rgb/1.png -0.5 depth/1.png"));
     checkSkipsFrameOne("depth stamp nan", replaced("0.1 rgb/1.png nan depth/1.png"));

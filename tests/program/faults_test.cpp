@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damaged, empty, full and unusual frames: skipped with a message, or processed.
 #include "tests/rig/stage.h"
+#include "tests/support/replace_in.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -48,11 +49,11 @@ void withFour(const std::function<void(const Stage&)>& damage, int bad,
     checkSkips(stage, bad, parts);
 }
 
-void replaceText(const Stage& stage, const std::string& from, const std::string& to) {
-    std::string text = stage.read("rec/associations.txt");
-    const size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    stage.write("rec/associations.txt", text.replace(at, from.size(), to));
+// The same for one change of the index.
+void withIndexChanged(const std::string& from, const std::string& to, int bad,
+                      const std::vector<std::string>& parts) {
+    withFour([&](const Stage& stage) { testing::replaceIn(stage / "rec/associations.txt", from, to); }, bad,
+             parts);
 }
 
 } // namespace
@@ -114,11 +115,9 @@ TEST_CASE(
 }
 
 TEST_CASE("A stamp that goes back, or an invalid line, skips its frame alone and is named") {
-    withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2,
-             {"0.01", "goes back"});
-    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png", "noise rgb/000001.png"); }, 1,
-             {"line 3"});
-    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png ", ""); }, 1, {"line 3"});
+    withIndexChanged("0.066667 depth/000002", "0.010000 depth/000002", 2, {"0.01", "goes back"});
+    withIndexChanged("0.033333 rgb/000001.png", "noise rgb/000001.png", 1, {"line 3"});
+    withIndexChanged("0.033333 rgb/000001.png ", "", 1, {"line 3"});
 }
 
 TEST_CASE("Frames without valid depth, with every pixel selected and with none selected run through") {
