@@ -59,11 +59,6 @@ double force(const json& s) {
     return s["run"]["force_N"];
 }
 
-bool hasAlarm(const json& s, const std::string& words) {
-    return std::any_of(s["alarms"].begin(), s["alarms"].end(),
-                       [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
-}
-
 // Arms forces and pushes the tool against the bump with the wheel.
 void press(const WindowRig& rig) {
     rig.key("a");

@@ -15,12 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-bool alarm(const json& s, const std::string& words) {
-    const json& alarms = s["alarms"];
-    return std::any_of(alarms.begin(), alarms.end(),
-                       [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
-}
-
 bool isAdvisory(int r, int g, int b) {
     return std::abs(r - 110) < 24 && std::abs(g - 214) < 24 && std::abs(b - 235) < 24;
 }
@@ -104,7 +98,7 @@ TEST_CASE("On screen the state word has a contrast of 7 to 1 while forces are of
 TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its cause") {
     WindowRig rig;
     rig.key("f");
-    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return hasAlarm(s, "ADVISORY active frozen"); }));
     rig.click("tab Alarms");
     REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 2; }));
     rig.xdo("mousemove --window $W 300 300"); // the tooltip of the tab would cover the list
@@ -113,20 +107,20 @@ TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its
     const std::array<double, 4> list{button[0], button[1] + button[3], 330.0, 120.0};
     CHECK(rig.shoot("alarms").share(list, isAdvisory) > 0.0015);
     rig.key("f");
-    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY latched frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return hasAlarm(s, "ADVISORY latched frozen"); }));
     CHECK(rig.state()["alarm_lines"][0] == "ended: Fixtures frozen, new images do not change them");
     const auto ticks = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 700; }));
-    CHECK(alarm(rig.state(), "ADVISORY latched frozen"));
+    CHECK(hasAlarm(rig.state(), "ADVISORY latched frozen"));
     rig.key("q");
-    REQUIRE(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return !hasAlarm(s, "frozen"); }));
     CHECK(rig.state()["alarm_lines"].empty());
     rig.key("f");
-    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return hasAlarm(s, "ADVISORY active frozen"); }));
     rig.click("acknowledge"); // while the cause lasts: quiet, but shown
-    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active acknowledged frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return hasAlarm(s, "ADVISORY active acknowledged frozen"); }));
     rig.key("f");
-    CHECK(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    CHECK(rig.await([](const json& s) { return !hasAlarm(s, "frozen"); }));
     closeQuietly(rig);
 }
 
@@ -138,11 +132,11 @@ TEST_CASE("An acknowledged alarm stays in the view, dimmed, and goes to the hist
     const auto place = rig.place("alarm");
     CHECK(rig.shoot("alarm-line").share(place, isAdvisory) > 0.01);
     rig.key("q");
-    REQUIRE(rig.await([](const json& s) { return alarm(s, "active acknowledged frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return hasAlarm(s, "active acknowledged frozen"); }));
     CHECK(rig.shoot("alarm-dimmed").share(place, isAdvisory) < 0.001);
     CHECK(rig.state()["console"]["places"].contains("alarm"));
     rig.key("f");
-    REQUIRE(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    REQUIRE(rig.await([](const json& s) { return !hasAlarm(s, "frozen"); }));
     CHECK(rig.await([](const json& s) { return !s["console"]["places"].contains("alarm"); }));
     CHECK(rig.state()["alarms_over"][0] == "Fixtures frozen, new images do not change them");
     rig.click("tab Alarms");

@@ -5,6 +5,7 @@
 
 #include "tests/rig/small_recording.h"
 
+#include <algorithm>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -91,6 +92,14 @@ private:
 
 // Closes the window and expects exit code 0 and no validation message.
 void closeQuietly(WindowRig& rig);
+
+// Whether an alarm of a state line contains these words.
+inline bool hasAlarm(const nlohmann::json& state, const std::string& words) {
+    const nlohmann::json& alarms = state["alarms"];
+    return std::any_of(alarms.begin(), alarms.end(), [&](const nlohmann::json& alarm) {
+        return alarm.get<std::string>().find(words) != std::string::npos;
+    });
+}
 
 // Three numbers of a state line.
 inline glm::dvec3 vec(const nlohmann::json& v) {
