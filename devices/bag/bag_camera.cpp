@@ -30,6 +30,9 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
         logWarnings();
         warnOfMotion(choice_.depth.frame);
         useSpan(topicOf(choice_.depth));
+        if (!choice_.depth.compressed) {
+            judgeOrder();
+        }
         chooseUnit();
         useClocks();
         watchChanges();
@@ -194,9 +197,15 @@ ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
     return image;
 }
 
+ros::Image BagCamera::depthAt(size_t index) {
+    Image image = imageOf(choice_.depth, index);
+    image.bigEndian = bigEndian_.value_or(image.bigEndian);
+    return image;
+}
+
 // Returns the fault; empty when the slot is filled.
 std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) {
-    const Image depth = imageOf(choice_.depth, index);
+    const Image depth = depthAt(index);
     if (const std::string other = depthFault(choice_.depth, depth, info()); !other.empty()) {
         return choice_.depth.name + ": " + other;
     }

@@ -36,6 +36,7 @@ private:
     bool pairsByStamp();
     bool stampsAgree();
     bool anyOfSome(const std::function<bool(size_t)>& holds) const;
+    void judgeOrder();
     void chooseUnit();
     const MessageTopic* unitTopic() const;
     double sensorUnit();
@@ -44,6 +45,7 @@ private:
     std::string changed(uint64_t time);
     ValueSpan sampledMetres();
     Image imageOf(const ImageStream& stream, size_t index);
+    Image depthAt(size_t index);
     std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
     std::string readColour(size_t depthIndex, double stamp, FrameSlot& slot, RawColour& raw);
     const MessageTopic& topicOf(const ImageStream& stream) const { return file_->topics()[stream.topic]; }
@@ -52,8 +54,9 @@ private:
     std::optional<StampedStream> colour_;
     std::optional<ChangedMessages> units_, depthLenses_, colourLenses_; // only where there may be several
     RangeToAxis toAxis_;
-    double valuesPerUnit_ = 1.0; // of depth in metres
-    double tolerance_ = 0.0;     // [s]
+    std::optional<bool> bigEndian_; // of depth, where its messages state the other order
+    double valuesPerUnit_ = 1.0;    // of depth in metres
+    double tolerance_ = 0.0;        // [s]
 };
 
 } // namespace fathom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The depth unit of BagCamera.
+// The byte order and the depth unit of BagCamera.
 #include "devices/bag/bag_camera.h"
+#include "devices/bag/image_faults.h"
 #include "devices/images/metre_units.h"
 #include "devices/recorded/depth_scale.h"
 #include "engine/types/error.h"
@@ -17,6 +18,14 @@ constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth
 constexpr size_t kUnitSamples = 9;
 
 } // namespace
+
+void BagCamera::judgeOrder() {
+    bigEndian_ = orderInstead(choice_.depth.name, [&](size_t i) -> Judged {
+        const Image image = imageOf(choice_.depth, i);
+        const bool ofStream = depthFault(choice_.depth, image, info()).empty();
+        return {ofStream ? ros::depthOrder(image) : ByteOrder::Unknown, image.bigEndian};
+    });
+}
 
 // An SDK's option of the depth stream; null = none.
 const MessageTopic* BagCamera::unitTopic() const {
@@ -74,7 +83,7 @@ ValueSpan BagCamera::sampledMetres() {
     ValueSpan seen;
     sample(kUnitSamples, [&](size_t i) {
         try {
-            seen.add(ros::valueSpan(imageOf(choice_.depth, i)));
+            seen.add(ros::valueSpan(depthAt(i)));
         } catch (const Error&) { // named when it is played
         }
     });

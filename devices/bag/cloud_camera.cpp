@@ -90,6 +90,7 @@ CloudCamera::CloudCamera(std::unique_ptr<MessageFile> file, SourceOptions option
     options_.checkMetres(file_->file().string());
     chooseTopic();
     useSpan(topic());
+    judgeOrder();
     learnLens();
     warnOfMotion(frame_);
     useClock(topic());
@@ -160,6 +161,14 @@ std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     }
     return "points of frame '" + message.frame + "' deviate from the rays of a pinhole and of a fan" +
            (fit_.fault.empty() ? " by " + std::to_string(fit_.residual) + " pixels" : ": " + fit_.fault);
+}
+
+void CloudCamera::judgeOrder() {
+    bigEndian_ = orderInstead(topic().name, [&](size_t i) -> Judged {
+        const ros::Cloud cloud = cloudAt(i);
+        return {ros::whyNoDepth(cloud).empty() ? ros::pointsOrder(cloud) : ByteOrder::Unknown,
+                cloud.bigEndian};
+    });
 }
 
 void CloudCamera::learnLens() {

@@ -30,11 +30,13 @@ private:
     void checkOptions() const;
     void chooseTopic();
     std::string fit(const ros::Cloud& message, const PcdCloud& cloud);
+    void judgeOrder();
     void learnLens();
     const MessageTopic& topic() const { return file_->topics()[topic_]; }
     ros::Cloud cloudAt(size_t index) {
         ros::Cloud cloud = ros::cloud(file_->read(topic(), index));
         warnOnce(topic().name, cloud.stepFault);
+        cloud.bigEndian = bigEndian_.value_or(cloud.bigEndian);
         return cloud;
     }
     std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
@@ -43,6 +45,7 @@ private:
     std::string summary_;
     CameraInfo info_;
     FittedLens fit_;
+    std::optional<bool> bigEndian_;                     // where its messages state the other order
     std::string frame_;                                 // of the cloud with that lens
     std::string uncoloured_ = "no colour is asked for"; // why there is none
     double metresPerValue_ = 1.0;

@@ -112,6 +112,20 @@ std::string whyNoDepth(const Cloud& cloud) {
     return "";
 }
 
+ByteOrder pointsOrder(const Cloud& cloud) {
+    OrderOfReals order;
+    for (const char* name : {"x", "y", "z"}) {
+        const PcdField* field = fieldNamed(cloud.fields, name);
+        for (uint32_t v = 0; v < cloud.height; ++v) {
+            const uint8_t* point = cloud.data.data() + size_t{v} * cloud.rowStep;
+            for (uint32_t u = 0; u < cloud.width; ++u, point += cloud.pointStep) {
+                order.add(field->at(point, 0, cloud.bigEndian), field->at(point, 0, !cloud.bigEndian));
+            }
+        }
+    }
+    return order.order();
+}
+
 PcdCloud pointsOf(const Cloud& cloud, double& largest) {
     PcdCloud out{cloud.width, cloud.height, {}, {}, {}, {}};
     const PcdField *x = fieldNamed(cloud.fields, "x"), *y = fieldNamed(cloud.fields, "y"),

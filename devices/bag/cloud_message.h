@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/bag/message_cursor.h"
+#include "devices/images/byte_order.h"
 #include "devices/pcd/pcd_field.h"
 #include "devices/pcd/pcd_file.h"
 
@@ -36,6 +37,9 @@ Cloud cloud(MessageCursor message);
 // Why it is not played, with what is allowed; empty = it can be: 2 to 3840 columns, 2 to 2160 rows, x, y and
 // z as float32 or float64 that lie inside of the points, all points inside of the data.
 std::string whyNoDepth(const Cloud& cloud);
+// Whether x, y and z have the byte order that is_bigendian states; one cloud may not decide it. Only where
+// whyNoDepth() is empty.
+ByteOrder pointsOrder(const Cloud& cloud);
 // The points in row-major order, with colour from the fields that ColourFields finds. largest: as for
 // ColourFields::read(). Only where whyNoDepth() is empty.
 PcdCloud pointsOf(const Cloud& cloud, double& largest);

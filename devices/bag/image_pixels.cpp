@@ -42,10 +42,21 @@ std::string checkBytes(const Image& image, size_t row) {
     return "";
 }
 
-float floatAt(const Image& image, uint32_t x, uint32_t y) {
+float floatAt(const Image& image, uint32_t x, uint32_t y, bool bigEndian) {
     uint32_t bits = 0;
     std::memcpy(&bits, image.data.data() + size_t{y} * image.step + size_t{4} * x, 4);
-    return std::bit_cast<float>(image.bigEndian ? __builtin_bswap32(bits) : bits);
+    return std::bit_cast<float>(bigEndian ? __builtin_bswap32(bits) : bits);
+}
+
+ByteOrder orderOfMetres(const Image& image) {
+    OrderOfReals order;
+    for (uint32_t y = 0; y < image.height; ++y) {
+        for (uint32_t x = 0; x < image.width; ++x) {
+            order.add(double{floatAt(image, x, y, image.bigEndian)},
+                      double{floatAt(image, x, y, !image.bigEndian)});
+        }
+    }
+    return order.order();
 }
 
 std::string compressedDepthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out,
@@ -166,10 +177,26 @@ std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16
             }
         }
         for (uint32_t x = 0; metres && x < image.width; ++x) {
-            to[x] = unitsOf(double{floatAt(image, x, y)}, metresPerUnit, beyond);
+            to[x] = unitsOf(double{floatAt(image, x, y, image.bigEndian)}, metresPerUnit, beyond);
         }
     }
     return fault;
+}
+
+ByteOrder depthOrder(const Image& image) {
+    const std::string encoding = image.compressed ? "" : depthEncoding(image.encoding);
+    const bool metres = encoding == "32FC1";
+    if (encoding.empty() || encoding == "rvl" ||
+        !checkBytes(image, size_t{image.width} * (metres ? 4 : 2)).empty()) {
+        return ByteOrder::Unknown;
+    }
+    if (metres) {
+        return orderOfMetres(image);
+    }
+    std::vector<uint16_t> values(size_t{image.width} * image.height);
+    uint64_t beyond = 0;
+    return depthRows(image, 1.0, values, beyond).empty() ? orderOfUnits(values, image.width)
+                                                         : ByteOrder::Unknown;
 }
 
 ColourFormat colourFormat(const Image& image) {
@@ -213,7 +240,7 @@ ValueSpan valueSpan(const Image& image) {
     }
     for (uint32_t y = 0; checkBytes(image, size_t{4} * image.width).empty() && y < image.height; ++y) {
         for (uint32_t x = 0; x < image.width; ++x) {
-            span.add(double{floatAt(image, x, y)});
+            span.add(double{floatAt(image, x, y, image.bigEndian)});
         }
     }
     return span;

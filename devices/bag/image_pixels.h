@@ -4,6 +4,7 @@
 #pragma once
 
 #include "devices/bag/ros_messages.h"
+#include "devices/images/byte_order.h"
 #include "devices/images/metre_units.h"
 #include "engine/types/colour_format.h"
 
@@ -28,6 +29,10 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image);
 // Where the stated step of rows cannot be that of the image, and the bytes are those of rows without gaps:
 // sets it. Returns what was stated, empty = nothing was set.
 std::string correctStep(Image& image);
+
+// Whether the bytes of uncompressed depth have the order that is_bigendian states; by one image, whose values
+// may not decide it.
+ByteOrder depthOrder(const Image& image);
 
 // Whether depth values are metres (float) rather than the sensor's units.
 bool holdsMetres(const Image& image);

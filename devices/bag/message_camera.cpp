@@ -86,6 +86,23 @@ void MessageCamera::warnOnce(const std::string& subject, const std::string& faul
     }
 }
 
+std::optional<bool> MessageCamera::orderInstead(const std::string& topic,
+                                                const std::function<Judged(size_t)>& judge) {
+    constexpr size_t kSamples = 9;
+    Judged first;
+    sample(kSamples, [&](size_t i) {
+        try {
+            first = first.order == ByteOrder::Unknown ? judge(i) : first;
+        } catch (const Error&) { // named when it is played
+        }
+    });
+    if (first.order != ByteOrder::Swapped) {
+        return std::nullopt;
+    }
+    warnOnce(topic, wrongOrder(first.bigEndian));
+    return !first.bigEndian;
+}
+
 bool MessageCamera::seek(uint32_t index) {
     if (index >= end_) {
         return false;

@@ -7,9 +7,11 @@
 #include "devices/bag/stamped_stream.h"
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/images/byte_order.h"
 #include "devices/recorded/source_options.h"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -48,6 +50,14 @@ protected:
             use(i);
         }
     }
+    struct Judged {
+        ByteOrder order = ByteOrder::Unknown;
+        bool bigEndian = false; // as stated
+    };
+    // Whether the topic's messages are big-endian, where is_bigendian states the other order; empty = it is
+    // right, or no message decides. judge(i): of message i. Of a few over the whole span, the first that is
+    // not Unknown decides. Warns.
+    std::optional<bool> orderInstead(const std::string& topic, const std::function<Judged(size_t)>& judge);
     // Logs and adds "subject: fault" once; an empty fault is none.
     void warnOnce(const std::string& subject, const std::string& fault);
     // Warns once of points that the unit of depth cannot hold, unless the scene's far excludes them.

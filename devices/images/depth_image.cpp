@@ -101,14 +101,26 @@ std::string readDepthImage(const std::filesystem::path& file, PngSize size, cons
     }
     std::string bytes;
     const std::string fault = checkedBytes(file, *format, size, units.metres, bytes);
-    if (!fault.empty() || !units.metres) {
-        return fault.empty() ? format->units(asBytes(bytes), out) : fault;
+    if (!fault.empty()) {
+        return fault;
+    }
+    if (!units.metres) {
+        const bool swapped = units.swapped && format->units == readPgm;
+        return swapped ? readSwappedPgm(asBytes(bytes), out) : format->units(asBytes(bytes), out);
     }
     std::vector<float> values(out.size());
     std::string damaged = format->metres(asBytes(bytes), values);
     std::transform(values.begin(), values.end(), out.begin(),
                    [&](float v) { return unitsOf(double{v}, units.valuesPerUnit, beyond); });
     return damaged;
+}
+
+ByteOrder depthImageOrder(const std::filesystem::path& file) {
+    if (!isPgm(asBytes(firstBytes(file, 16)))) {
+        return ByteOrder::Unknown;
+    }
+    const auto text = readFileAtMost(file, kMaxDepthFile);
+    return text && text->size() <= kMaxDepthFile ? pgmOrder(asBytes(*text)) : ByteOrder::Unknown;
 }
 
 ValueSpan valueSpan(const std::filesystem::path& file, PngSize size) {

@@ -3,6 +3,7 @@
 // of floating point, in metres; NPY of 16 bits.
 #pragma once
 
+#include "devices/images/byte_order.h"
 #include "devices/images/depth_header.h"
 #include "devices/images/metre_units.h"
 
@@ -24,6 +25,7 @@ bool endsAs(const std::filesystem::path& file, std::span<const std::string_view>
 struct DepthUnits {
     bool metres = false;        // images of floating point are expected, else of 16 bits
     double valuesPerUnit = 1.0; // of floating point: value of the frame's depth 1
+    bool swapped = false;       // of PGM: the least significant byte is first
 };
 
 // Reads the file, at most 256 MiB.
@@ -33,6 +35,8 @@ DepthHeader depthImageHeader(const std::filesystem::path& file);
 // fault.
 std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,
                            std::span<uint16_t> out, uint64_t& beyond);
+// Whether the bytes of a PGM have the order of that format; Unknown for others, whose order is stated.
+ByteOrder depthImageOrder(const std::filesystem::path& file);
 // The values of a floating-point image of this size; without any when it cannot be read.
 ValueSpan valueSpan(const std::filesystem::path& file, PngSize size);
 

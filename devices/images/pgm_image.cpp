@@ -3,6 +3,7 @@
 
 #include <cctype>
 #include <optional>
+#include <vector>
 
 namespace fathom {
 
@@ -36,6 +37,40 @@ std::optional<PgmHeader> parsePgm(ImageBytes bytes) {
     return PgmHeader{*width, *height, *most, at + 1};
 }
 
+// As the format orders their bytes, whatever the maximum is. Returns the fault.
+std::string readValues(ImageBytes bytes, const PgmHeader& head, std::span<uint16_t> out) {
+    ImageBytes pixels = bytes.subspan(head.pixels);
+    if (pixels.size() == 2 * out.size() + 1 &&
+        pixels.back() == '\n') { // as text editors and some writers end it
+        pixels = pixels.first(2 * out.size());
+    }
+    if (pixels.size() != 2 * out.size()) {
+        return "PGM: " + std::to_string(pixels.size()) + " bytes of pixels, not " +
+               std::to_string(2 * out.size());
+    }
+    for (size_t i = 0; i < out.size(); ++i) {
+        out[i] = static_cast<uint16_t>(pixels[2 * i] << 8 | pixels[2 * i + 1]);
+    }
+    return "";
+}
+
+std::string readOrdered(ImageBytes bytes, std::span<uint16_t> out, bool swapped) {
+    const auto head = parsePgm(bytes);
+    if (!head || size_t{head->width} * head->height != out.size()) {
+        return "PGM: another size";
+    }
+    if (std::string fault = readValues(bytes, *head, out); !fault.empty()) {
+        return fault;
+    }
+    for (uint16_t& value : out) {
+        value = swapped ? __builtin_bswap16(value) : value;
+        if (value > head->most) {
+            return "PGM: value " + std::to_string(value) + " over its maximum " + std::to_string(head->most);
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 bool isPgm(ImageBytes bytes) {
@@ -56,26 +91,20 @@ DepthHeader pgmHeader(ImageBytes bytes) {
 }
 
 std::string readPgm(ImageBytes bytes, std::span<uint16_t> out) {
+    return readOrdered(bytes, out, false);
+}
+
+std::string readSwappedPgm(ImageBytes bytes, std::span<uint16_t> out) {
+    return readOrdered(bytes, out, true);
+}
+
+ByteOrder pgmOrder(ImageBytes bytes) {
     const auto head = parsePgm(bytes);
-    if (!head || size_t{head->width} * head->height != out.size()) {
-        return "PGM: another size";
+    if (!head || head->most < 256 || bytes.size() / 2 < uint64_t{head->width} * head->height) {
+        return ByteOrder::Unknown;
     }
-    ImageBytes pixels = bytes.subspan(head->pixels);
-    if (pixels.size() == 2 * out.size() + 1 &&
-        pixels.back() == '\n') { // as text editors and some writers end it
-        pixels = pixels.first(2 * out.size());
-    }
-    if (pixels.size() != 2 * out.size()) {
-        return "PGM: " + std::to_string(pixels.size()) + " bytes of pixels, not " +
-               std::to_string(2 * out.size());
-    }
-    for (size_t i = 0; i < out.size(); ++i) {
-        out[i] = static_cast<uint16_t>(pixels[2 * i] << 8 | pixels[2 * i + 1]);
-        if (out[i] > head->most) {
-            return "PGM: value " + std::to_string(out[i]) + " over its maximum " + std::to_string(head->most);
-        }
-    }
-    return "";
+    std::vector<uint16_t> values(size_t{head->width} * head->height);
+    return readValues(bytes, *head, values).empty() ? orderOfUnits(values, head->width) : ByteOrder::Unknown;
 }
 
 } // namespace fathom

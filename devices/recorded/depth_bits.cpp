@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/depth_bits.h"
 
-#include "devices/images/depth_image.h"
-
 #include <algorithm>
 #include <bit>
 #include <bitset>
@@ -112,12 +110,12 @@ std::vector<std::filesystem::path> sampledImages(const RecordingLayout& layout) 
     return images;
 }
 
-DepthBits depthBits(const RecordingLayout& layout, PngSize size) {
+DepthBits depthBits(const RecordingLayout& layout, PngSize size, const DepthUnits& units) {
     std::vector<uint16_t> image(size_t{size.width} * size.height);
     ValueSigns signs;
     for (const std::filesystem::path& file : sampledImages(layout)) {
         uint64_t beyond = 0;
-        if (signs.arePlain() || !readDepthImage(file, size, {}, image, beyond).empty()) {
+        if (signs.arePlain() || !readDepthImage(file, size, units, image, beyond).empty()) {
             continue;
         }
         for (const uint16_t value : image) {

@@ -2,6 +2,7 @@
 // How the bits of 16-bit depth images hold millimetres, judged by their values.
 #pragma once
 
+#include "devices/images/depth_image.h"
 #include "devices/recorded/recording_layout.h"
 
 #include <filesystem>
@@ -22,6 +23,6 @@ std::vector<std::filesystem::path> sampledImages(const RecordingLayout& layout);
 
 // Judged from a few images, if the unit is 1 mm. Folders named like SUN3D's need less evidence. Images that
 // cannot be read are ignored.
-DepthBits depthBits(const RecordingLayout& layout, PngSize size);
+DepthBits depthBits(const RecordingLayout& layout, PngSize size, const DepthUnits& units);
 
 } // namespace fathom

@@ -25,6 +25,7 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
         chooseUnit(layout, options);
     } else {
         options.checkUnit(folder_);
+        judgeOrder(layout);
         if (std::abs(metresPerUnit_ - 1e-3) < 1e-5 && !options.scale) {
             detectBits(layout);
         }
@@ -32,8 +33,29 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
     toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();
 }
 
+void FolderDepth::warn(const std::string& warning) {
+    log::warn("{}: {}", folder_, warning);
+    warnings_.push_back(warning);
+}
+
+// By the first of a few images that decides.
+void FolderDepth::judgeOrder(const RecordingLayout& layout) {
+    for (const std::filesystem::path& file : sampledImages(layout)) {
+        const ByteOrder order = depthImageOrder(file);
+        units_.swapped = order == ByteOrder::Swapped;
+        if (units_.swapped) {
+            warn(file.filename().string() + ": PGM has the most significant byte first, but its values are "
+                                            "plausible only with the least significant one first: all depth "
+                                            "images are read so");
+        }
+        if (order != ByteOrder::Unknown) {
+            return;
+        }
+    }
+}
+
 void FolderDepth::detectBits(const RecordingLayout& layout) {
-    const DepthBits bits = depthBits(layout, size_);
+    const DepthBits bits = depthBits(layout, size_, units_);
     if (bits == DepthBits::Either) {
         throw BadInput(folder_, "depth images", "multiples of eight, as of coarse steps or of rotated bits",
                        "scale=0.001 after the folder name for millimetres as they are stored, or "
@@ -41,16 +63,12 @@ void FolderDepth::detectBits(const RecordingLayout& layout) {
     }
     rotated_ = bits == DepthBits::Rotated;
     if (rotated_) {
-        warning_ =
-            "its depths are multiples of eight: read as millimetres rotated by three bits, as of SUN3D "
-            "and SUN RGB-D; scale=0.001 after the folder name reads them as they are";
+        warn("its depths are multiples of eight: read as millimetres rotated by three bits, as of SUN3D "
+             "and SUN RGB-D; scale=0.001 after the folder name reads them as they are");
     } else if (bits == DepthBits::Players) {
-        warning_ = "most of its depths are multiples of eight, as of the Kinect SDK, which adds the numbers "
-                   "of players to eighths of millimetres; scale=0.000125 after the folder name reads "
-                   "them so, scale=0.001 as they are, as now";
-    }
-    if (!warning_.empty()) {
-        log::warn("{}: {}", folder_, warning_);
+        warn("most of its depths are multiples of eight, as of the Kinect SDK, which adds the numbers "
+             "of players to eighths of millimetres; scale=0.000125 after the folder name reads "
+             "them so, scale=0.001 as they are, as now");
     }
 }
 
@@ -66,7 +84,9 @@ void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions&
     }
     const double metresPerValue = options.scale.value_or(1.0);
     seen = seen.scaled(metresPerValue);
-    warning_ = metresWarning(folder_, seen);
+    if (const std::string warning = metresWarning(folder_, seen); !warning.empty()) { // logged already
+        warnings_.push_back(warning);
+    }
     metresPerUnit_ = unitForMetres(seen, options.farthest);
     units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
 }

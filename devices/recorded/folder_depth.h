@@ -7,6 +7,11 @@
 #include "devices/recorded/recording_layout.h"
 #include "devices/recorded/source_options.h"
 
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
 namespace fathom {
 
 // One thread.
@@ -20,18 +25,21 @@ public:
                 const SourceOptions& options);
 
     double metresPerUnit() const { return metresPerUnit_; }
-    // That values may be read wrong; empty = none.
-    const std::string& warning() const { return warning_; }
+    // That values may be read wrong. Logged already.
+    const std::vector<std::string>& warnings() const { return warnings_; }
     // z in metresPerUnit(), 0 = no measurement. Returns the fault, or empty. Warns once of depth that is too
     // far for 16 bits.
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
 
 private:
+    void judgeOrder(const RecordingLayout& layout);
+    void warn(const std::string& warning);
     void detectBits(const RecordingLayout& layout);
     void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
     void dropInvalid(std::span<uint16_t> depth) const;
 
-    std::string folder_, warning_;
+    std::string folder_;
+    std::vector<std::string> warnings_;
     PngSize size_;
     DepthUnits units_;
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]

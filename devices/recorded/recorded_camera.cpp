@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace fathom {
 
@@ -218,9 +219,7 @@ std::vector<std::string> RecordedCamera::warnings() const {
     if (skipped_ > all.size()) {
         all.push_back(std::to_string(skipped_ - all.size()) + " more frames skipped");
     }
-    if (!depth_->warning().empty()) {
-        all.push_back(depth_->warning());
-    }
+    std::ranges::copy(depth_->warnings(), std::back_inserter(all));
     return all;
 }
 

@@ -72,7 +72,8 @@ void Ros2Camera::receive() {
 }
 
 std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
-    const ros::Image image = imageOf(choice_.depth, message);
+    ros::Image image = imageOf(choice_.depth, message);
+    image.bigEndian = bigEndian_.value_or(image.bigEndian);
     if (const std::string other = depthFault(choice_.depth, image, info()); !other.empty()) {
         return other;
     }

@@ -86,7 +86,8 @@ private:
     std::optional<LiveStamps> depthStamps_, colourStamps_;
     std::optional<FrameSlots> slots_;
     RangeToAxis toAxis_;
-    double valuesPerUnit_ = 1.0; // of depth in metres
+    std::optional<bool> bigEndian_; // of depth, where its messages state the other order
+    double valuesPerUnit_ = 1.0;    // of depth in metres
     double lastDepth_ = 0.0; // [s] CLOCK_MONOTONIC, arrival of the newest depth image; at first: when opened
     uint32_t delivered_ = 0;
     uint64_t overtaken_ = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the streams of ros2_camera.h and their lenses.
 #include "devices/bag/stream_chooser.h"
+#include "devices/images/byte_order.h"
 #include "devices/images/metre_units.h"
 #include "devices/ros2/ros2_camera.h"
 #include "engine/types/clock.h"
@@ -143,11 +144,16 @@ std::string Ros2Camera::missing(const std::string& why) const {
 }
 
 // Metres get the finest unit that holds the scene's far; without one, one and a half times the farthest depth
-// of the first image that is no background.
+// of the first image that is no background. That image also decides the order of bytes.
 void Ros2Camera::chooseUnit() {
     constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth is in millimetres
     const MessageCursor message = messages_.read(messages_.topics()[choice_.depth.topic], 0);
-    const ros::Image first = choice_.depth.compressed ? ros::compressedImage(message) : ros::image(message);
+    ros::Image first = choice_.depth.compressed ? ros::compressedImage(message) : ros::image(message);
+    if (ros::depthOrder(first) == ByteOrder::Swapped) {
+        skip(choice_.depth.name + ": " + wrongOrder(first.bigEndian), 0);
+        first.bigEndian = !first.bigEndian;
+        bigEndian_ = first.bigEndian;
+    }
     CameraInfo& camera = choice_.camera;
     if (!ros::holdsMetres(first)) {
         request_.options.checkUnit(request_.text);

@@ -108,7 +108,7 @@ std::string imageMessage(double t, const ImageMessage& image) {
                                                .put(image.height)
                                                .put(image.width)
                                                .text(image.encoding)
-                                               .put(uint8_t{0})
+                                               .put(static_cast<uint8_t>(image.bigEndian))
                                                .put(step)
                                                .text(image.pixels)
                                                .bytes;

@@ -60,6 +60,7 @@ struct ImageMessage {
     std::string frame = "camera", encoding = "16UC1";
     uint32_t width = 8, height = 6, step = 0; // step 0: rows without gaps
     std::string pixels;
+    bool bigEndian = false; // as stated
 };
 std::string imageMessage(double t, const ImageMessage& image);
 std::string compressedMessage(double t, const std::string& frame, const std::string& format,

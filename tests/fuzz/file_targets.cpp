@@ -101,6 +101,7 @@ void readDepthFile(Bytes input) {
     std::vector<uint16_t> depth(size_t{head.size.width} * head.size.height);
     uint64_t beyond = 0;
     const std::string fault = readDepthImage(file, head.size, {head.metres, 0.001}, depth, beyond);
+    need(depthImageOrder(file) != ByteOrder::Swapped || !head.metres);
     need(beyond <= depth.size() && std::isfinite(valueSpan(file, head.size).farthest));
     need(!readDepthImage(file, head.size, {!head.metres, 0.001}, depth, beyond).empty()); // the other kind
     if (!fault.empty()) {
@@ -182,6 +183,7 @@ void readMessageImage(Bytes input) {
     const std::string fault =
         deep ? ros::depthRows(image, 0.001, depth, beyond) : ros::colourRows(image, colour, raw);
     need(beyond <= depth.size() && std::isfinite(ros::valueSpan(image).farthest));
+    need(ros::depthOrder(image) == ByteOrder::Unknown || (deep && !image.compressed));
     if (!fault.empty()) {
         throw Error(fault);
     }

@@ -93,6 +93,7 @@ void readOf(uint8_t kind, const MessageCursor& message) {
         if (!ros::whyNoDepth(cloud).empty() || uint64_t{cloud.width} * cloud.height > 1u << 16) {
             throw Error("no depth, or too large to be quick");
         }
+        ros::pointsOrder(cloud); // any order
         double largest = 0.0;
         need(ros::pointsOf(cloud, largest).points.size() == size_t{cloud.width} * cloud.height);
         break;
