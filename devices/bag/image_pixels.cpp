@@ -2,6 +2,7 @@
 #include "devices/bag/image_pixels.h"
 
 #include "devices/bag/colour_rows.h"
+#include "devices/bag/compressed_colour.h"
 #include "devices/bag/compressed_depth.h"
 #include "devices/recorded/png_image.h"
 #include "devices/v4l2/jpeg_image.h"
@@ -11,6 +12,7 @@
 #include <bit>
 #include <cstring>
 #include <strings.h>
+#include <vector>
 
 namespace fathom::ros {
 
@@ -26,6 +28,10 @@ std::string depthEncoding(const std::string& encoding) {
 
 CompressedDepth packed(const Image& image) {
     return {image.data, image.format.find("rvl") != std::string::npos};
+}
+
+CompressedColour packedColour(const Image& image) {
+    return {image.data, image.encoding};
 }
 
 // By its format, or by its content where a bridge states only "png".
@@ -127,6 +133,10 @@ Content content(const Image& image) {
     if (isCompressedDepth(image)) {
         return Content::Depth;
     }
+    const CompressedColour colour = packedColour(image);
+    if (colour.holdsMosaic()) {
+        return Content::Colour;
+    }
     const auto png = pngHeader(image.data);
     if (png && png->grey) {
         return png->bits == 16 ? Content::Depth : Content::Grey;
@@ -134,7 +144,7 @@ Content content(const Image& image) {
     if (!png && !isJpeg(std::as_bytes(image.data))) {
         return Content::None;
     }
-    return layout != nullptr && layout->grey() ? Content::Grey : Content::Colour;
+    return colour.isGrey() || (layout != nullptr && layout->grey()) ? Content::Grey : Content::Colour;
 }
 
 std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
@@ -147,8 +157,8 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
     if (const auto png = pngHeader(image.data)) {
         return std::pair(png->size.width, png->size.height);
     }
-    const auto jpeg = jpegSize(std::as_bytes(image.data));
-    return jpeg ? std::optional(std::pair(jpeg->width, jpeg->height)) : std::nullopt;
+    const auto jpeg = jpegHeader(std::as_bytes(image.data));
+    return jpeg ? std::optional(std::pair(jpeg->size.width, jpeg->size.height)) : std::nullopt;
 }
 
 // A format without encoding leaves that to the header of the compressed image.
@@ -201,7 +211,7 @@ ByteOrder depthOrder(const Image& image) {
 
 ColourFormat colourFormat(const Image& image) {
     if (image.compressed) {
-        return pngHeader(image.data) ? ColourFormat::Rgba : ColourFormat::JpegPlanes;
+        return packedColour(image).format();
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     return layout != nullptr && layout->raw ? formatOf(*layout->raw) : ColourFormat::Rgba;
@@ -210,9 +220,7 @@ ColourFormat colourFormat(const Image& image) {
 std::string colourRows(const Image& image, std::span<uint32_t> out, RawColour& raw) {
     const auto size = sizeOf(image);
     if (image.compressed && size) {
-        return pngHeader(image.data) ? readColourPng(image.data, {size->first, size->second}, out)
-                                     : readJpeg(std::as_bytes(image.data), {size->first, size->second},
-                                                std::as_writable_bytes(out), raw);
+        return packedColour(image).rows(size->first, size->second, out, raw);
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     if (layout == nullptr) {

@@ -40,8 +40,8 @@ std::optional<PngSize> colourImageSize(const std::filesystem::path& file) {
         return readPngSize(file);
     }
     const auto text = readFileAtMost(file, kMaxJpeg);
-    const auto size = text ? jpegSize(std::as_bytes(std::span(*text))) : std::nullopt;
-    return size ? std::optional(PngSize{size->width, size->height}) : std::nullopt;
+    const auto head = text ? jpegHeader(std::as_bytes(std::span(*text))) : std::nullopt;
+    return head ? std::optional(PngSize{head->size.width, head->size.height}) : std::nullopt;
 }
 
 ColourFormat colourImageFormat(const std::filesystem::path& file) {

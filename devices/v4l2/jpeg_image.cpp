@@ -90,7 +90,7 @@ bool isJpeg(std::span<const std::byte> bytes) {
     return bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
 }
 
-std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes) {
+std::optional<JpegHeader> jpegHeader(std::span<const std::byte> bytes) {
     int width = 0, height = 0, sampling = 0, space = 0;
     const Decoder decoder;
     if (!isJpeg(bytes) || decoder.get() == nullptr ||
@@ -99,7 +99,7 @@ std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes) {
                             &space) != 0) {
         return std::nullopt;
     }
-    return VideoSize{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+    return JpegHeader{{static_cast<uint32_t>(width), static_cast<uint32_t>(height)}, space == TJCS_GRAY};
 }
 
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<std::byte> out,

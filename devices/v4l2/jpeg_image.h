@@ -18,8 +18,13 @@ namespace fathom {
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<std::byte> out,
                      RawColour& raw);
 
-// By the first bytes. The size is empty when the header cannot be read.
+// By the first bytes.
 bool isJpeg(std::span<const std::byte> bytes);
-std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes);
+// What the header of a JPEG states; empty when it cannot be read.
+struct JpegHeader {
+    VideoSize size;
+    bool grey = false; // one component
+};
+std::optional<JpegHeader> jpegHeader(std::span<const std::byte> bytes);
 
 } // namespace fathom

@@ -77,17 +77,26 @@ std::string mosaic(uint32_t at, uint32_t bytes) {
     return all;
 }
 
-std::string jpegOf(uint8_t r, uint8_t g, uint8_t b) {
-    const std::string pixels = filledColour(r, g, b, kAcross * kDown);
+std::string jpegOf(const std::string& pixels, bool grey) {
     tjhandle encoder = tjInitCompress();
     unsigned char* made = nullptr;
     unsigned long size = 0;
-    tjCompress2(encoder, reinterpret_cast<const unsigned char*>(pixels.data()), kAcross, 0, kDown, TJPF_RGB,
-                &made, &size, TJSAMP_444, 100, 0);
+    tjCompress2(encoder, reinterpret_cast<const unsigned char*>(pixels.data()), kAcross, 0, kDown,
+                grey ? TJPF_GRAY : TJPF_RGB, &made, &size, grey ? TJSAMP_GRAY : TJSAMP_444, 100, 0);
     std::string bytes(reinterpret_cast<const char*>(made), size);
     tjFree(made);
     tjDestroy(encoder);
     return bytes;
+}
+
+std::string jpegOf(uint8_t r, uint8_t g, uint8_t b) {
+    return jpegOf(filledColour(r, g, b, kAcross * kDown), false);
+}
+
+// Grey, of 8 or 16 bits.
+std::string greyPng(const TemporaryFolder& folder, const std::string& pixels, int bits) {
+    writePng(folder.path() / "grey.png", kAcross, kDown, bits, 0, {pixels.begin(), pixels.end()});
+    return folder.read("grey.png");
 }
 
 std::string pngOf(const TemporaryFolder& folder, bool depth, uint16_t value) {
@@ -152,6 +161,33 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
     const TemporaryFolder folder;
     const std::string png = pngOf(folder, false, 0);
     checkRed(packedImage("bgr8; png compressed bgr8", png), "PNG");
+}
+
+TEST_CASE("A mosaic that was compressed as one component is read in colour, and other such images are grey") {
+    const TemporaryFolder folder;
+    const char* const kOrders[] = {"rggb", "grbg", "gbrg", "bggr"}; // by the place of red
+    for (uint32_t at = 0; at < 4; ++at) {
+        const std::string encoding = std::string("bayer_") + kOrders[at], cells = mosaic(at, 1);
+        std::string wide; // as PNG has it: the high byte first
+        for (const char cell : cells) {
+            wide += std::string(1, cell) + '\x12';
+        }
+        checkRed(packedImage(encoding + "8; jpeg compressed ", jpegOf(cells, true)), encoding + " JPEG");
+        checkRed(packedImage(encoding + "8; png compressed ", greyPng(folder, cells, 8)), encoding + " PNG");
+        checkRed(packedImage(encoding + "16; png compressed ", greyPng(folder, wide, 16)),
+                 encoding + "16 PNG");
+    }
+    checkRed(packedImage("bayer_rggb8; jpeg compressed bgr8", jpegOf(255, 0, 0)), "converted before");
+    const std::string grey(kAcross * kDown, '\x50');
+    for (const char* format : {"jpeg", "mono8; jpeg compressed ", "rgb8; jpeg compressed bgr8"}) {
+        CHECK(ros::content(packedImage(format, jpegOf(grey, true))) == ros::Content::Grey);
+    }
+    CHECK(ros::content(packedImage("mono16; png compressed ", greyPng(folder, grey + grey, 16))) ==
+          ros::Content::Depth);
+    const std::string cut = jpegOf(mosaic(0, 1), true);
+    std::vector<uint32_t> out(kAcross * kDown);
+    const std::string head = cut.substr(0, cut.size() / 2);
+    CHECK_FALSE(readRows(packedImage("bayer_rggb8; jpeg compressed ", head), out).empty());
 }
 
 TEST_CASE("Big-endian images give the same depth, metres and colours as little-endian ones") {
