@@ -11,21 +11,31 @@
 
 namespace fathom {
 
-// encoding: of the image before it was compressed ("bayer_rggb8"); empty or unknown = not stated.
+// What the format of a CompressedImage states about red and blue, as the subscriber of
+// compressed_image_transport reads it: "rgb8; jpeg compressed bgr8" is as usual, "rgb8; jpeg compressed rgb8"
+// has them swapped.
+enum class RedAndBlue { AsUsual, Swapped, Doubtful };
+RedAndBlue redAndBlue(const std::string& format);
+// What to warn of where they are not as usual; else empty.
+std::string redAndBlueWarning(const std::string& format);
+
+// encoding: of the image before it was compressed ("bayer_rggb8"); empty or unknown = not stated. format: the
+// whole text of the message, which begins with it.
 struct CompressedColour {
     std::span<const uint8_t> data;
-    std::string encoding;
+    std::string encoding, format = {};
 
     // Whether it is a JPEG or PNG of one component, by its header.
     bool isGrey() const;
     // Whether its only component is a mosaic.
     bool holdsMosaic() const;
     // How rows() leaves it.
-    ColourFormat format() const;
+    ColourFormat colourFormat() const;
     // As ros::colourRows() of an image whose header states this size [pixels].
     std::string rows(uint32_t width, uint32_t height, std::span<uint32_t> out, RawColour& raw) const;
 
 private:
+    std::string rgbaRows(uint32_t width, uint32_t height, std::span<uint32_t> out) const;
     std::string mosaicRows(uint32_t width, uint32_t height, std::span<uint32_t> out) const;
 };
 

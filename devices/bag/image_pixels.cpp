@@ -31,7 +31,7 @@ CompressedDepth packed(const Image& image) {
 }
 
 CompressedColour packedColour(const Image& image) {
-    return {image.data, image.encoding};
+    return {image.data, image.encoding, image.format};
 }
 
 // By its format, or by its content where a bridge states only "png".
@@ -211,7 +211,7 @@ ByteOrder depthOrder(const Image& image) {
 
 ColourFormat colourFormat(const Image& image) {
     if (image.compressed) {
-        return packedColour(image).format();
+        return packedColour(image).colourFormat();
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     return layout != nullptr && layout->raw ? formatOf(*layout->raw) : ColourFormat::Rgba;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/stream_description.h"
 
+#include "devices/bag/compressed_colour.h"
 #include "devices/bag/topic_words.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/range_images.h"
@@ -97,6 +98,10 @@ void StreamDescription::warnOf(const ImageStream& stream, std::vector<std::strin
     if (stream.skew != 0.0 && options_.intrinsics.empty()) {
         warnAboutSkew(warnings, file_.topics()[*stream.info].name, stream.skew,
                       "the images of " + stream.name);
+    }
+    const bool packed = stream.compressed && stream.content == ros::Content::Colour;
+    if (const std::string swapped = packed ? redAndBlueWarning(stream.encoding) : ""; !swapped.empty()) {
+        warnings.push_back(stream.name + ": " + swapped);
     }
     const auto words = camelWordsOf(stream.frame);
     const bool depthFrame = std::ranges::any_of(

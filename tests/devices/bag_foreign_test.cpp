@@ -4,6 +4,7 @@
 #include "tests/support/mentions.h"
 
 #include <algorithm>
+#include <tuple>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -51,6 +52,33 @@ TEST_CASE("Compressed images of unknown content and empty ones are named apart")
         maker.add("/c/depth", "sensor_msgs/CompressedImage", 1.0,
                   compressedMessage(1.0, "camera", "16UC1; compressedDepth png", bytes));
         mentions(streamRefusal(folder, maker), fault);
+    }
+}
+
+TEST_CASE("A compressed stream whose red and blue are swapped, or may be, is named once") {
+    const TemporaryFolder folder;
+    writeColour(folder.path() / "x.png", 8, 6, 0, 0, 255);
+    for (const auto& [format, colour, count] :
+         {std::tuple("rgb8; png compressed rgb8", 0xff0000ffu, 1),
+          std::tuple("rgb8; png compressed ", 0xffff0000u, 1),
+          std::tuple("rgb8; png compressed bgr8", 0xffff0000u, 0), std::tuple("png", 0xffff0000u, 0)}) {
+        CAPTURE(format);
+        BagMaker maker;
+        addStream(maker, "/c/depth/image_raw", depthImage(500));
+        for (const double t : {1.0, 1.1, 1.2}) {
+            maker.add("/c/rgb/camera_info", "sensor_msgs/CameraInfo", t, infoMessage({}));
+            maker.add("/c/rgb/image_raw/compressed", "sensor_msgs/CompressedImage", t,
+                      compressedMessage(t, "camera", format, folder.read("x.png")));
+        }
+        BagCamera camera = playStreams(folder, maker);
+        while (const auto frame = camera.next()) {
+            CHECK((*frame)->colour[0] == colour);
+        }
+        CHECK(camera.skipped() == 0);
+        const std::string said = std::string("/c/rgb/image_raw/compressed: the format '") + format + "'";
+        const auto warnings = camera.warnings();
+        CHECK(std::ranges::count_if(
+                  warnings, [&](const std::string& line) { return line.starts_with(said); }) == count);
     }
 }
 

@@ -2,17 +2,15 @@
 #include "devices/bag/compressed_depth.h"
 #include "devices/bag/image_pixels.h"
 #include "tests/devices/bag_maker.h"
+#include "tests/devices/encoded_images.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <doctest/doctest.h>
-#include <turbojpeg.h>
 
 using namespace fathom;
 using namespace fathom::testing;
 
 namespace {
-
-constexpr uint32_t kAcross = 8, kDown = 6, kCentre = 2 * kAcross + 3;
 
 ros::Image rawImage(const std::string& encoding, const std::string& pixels, uint32_t rows = kDown) {
     ros::Image image;
@@ -24,79 +22,12 @@ ros::Image rawImage(const std::string& encoding, const std::string& pixels, uint
     return image;
 }
 
-ros::Image packedImage(const std::string& format, const std::string& bytes) {
-    ros::Image image;
-    image.compressed = true;
-    image.format = format;
-    image.encoding = format.substr(0, format.find(';'));
-    image.data = {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
-    return image;
-}
-
-// Red, by less than 6 levels of each channel.
-bool isRed(uint32_t pixel) {
-    return (pixel & 0xff) > 244 && (pixel >> 8 & 0xff) < 6 && (pixel >> 16 & 0xff) < 6 && pixel >> 24 == 255;
-}
-
-// As R8 G8 B8 A8.
-std::string readRows(const ros::Image& image, std::vector<uint32_t>& out) {
-    RawColour raw;
-    std::vector<uint32_t> memory(out.size());
-    const std::string fault = ros::colourRows(image, memory, raw);
-    if (fault.empty()) {
-        CHECK(raw.format == ros::colourFormat(image));
-        raw.format == ColourFormat::Rgba ? out.swap(memory) : unpackColour(raw, out);
-    }
-    return fault;
-}
-
-void checkRed(const ros::Image& image, const std::string& name) {
-    std::vector<uint32_t> out(kAcross * kDown);
-    CHECK_MESSAGE(ros::content(image) == ros::Content::Colour, name);
-    CHECK_MESSAGE(readRows(image, out) == "", name);
-    CHECK_MESSAGE(isRed(out[0]), name);
-    CHECK_MESSAGE(isRed(out[kCentre]), name);
-    CHECK_MESSAGE(isRed(out.back()), name);
-}
-
 std::string repeated(const std::string& bytes, uint32_t count) {
     std::string all;
     for (uint32_t i = 0; i < count; ++i) {
         all += bytes;
     }
     return all;
-}
-
-// Red cells of 2 x 2 pixels, `at` the place of red.
-std::string mosaic(uint32_t at, uint32_t bytes) {
-    std::string all;
-    for (uint32_t i = 0; i < kAcross * kDown; ++i) {
-        const bool red = (i / kAcross % 2) * 2 + i % 2 == at;
-        all += std::string(bytes - 1, '\0') + (red ? '\xff' : '\0');
-    }
-    return all;
-}
-
-std::string jpegOf(const std::string& pixels, bool grey) {
-    tjhandle encoder = tjInitCompress();
-    unsigned char* made = nullptr;
-    unsigned long size = 0;
-    tjCompress2(encoder, reinterpret_cast<const unsigned char*>(pixels.data()), kAcross, 0, kDown,
-                grey ? TJPF_GRAY : TJPF_RGB, &made, &size, grey ? TJSAMP_GRAY : TJSAMP_444, 100, 0);
-    std::string bytes(reinterpret_cast<const char*>(made), size);
-    tjFree(made);
-    tjDestroy(encoder);
-    return bytes;
-}
-
-std::string jpegOf(uint8_t r, uint8_t g, uint8_t b) {
-    return jpegOf(filledColour(r, g, b, kAcross * kDown), false);
-}
-
-// Grey, of 8 or 16 bits.
-std::string greyPng(const TemporaryFolder& folder, const std::string& pixels, int bits) {
-    writePng(folder.path() / "grey.png", kAcross, kDown, bits, 0, {pixels.begin(), pixels.end()});
-    return folder.read("grey.png");
 }
 
 std::string pngOf(const TemporaryFolder& folder, bool depth, uint16_t value) {
@@ -152,7 +83,7 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
         checkRed(rawImage(std::string("bayer_") + kOrders[at] + "8", mosaic(at, 1)), kOrders[at]);
         checkRed(rawImage(std::string("bayer_") + kOrders[at] + "16", mosaic(at, 2)), kOrders[at]);
     }
-    const std::string jpeg = jpegOf(255, 0, 0);
+    const std::string jpeg = encodedJpeg(255, 0, 0);
     checkRed(packedImage("rgb8; jpeg compressed bgr8", jpeg), "JPEG");
     checkRed(packedImage("jpeg", jpeg), "bare JPEG");
     const std::string mjpg =
@@ -161,33 +92,6 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
     const TemporaryFolder folder;
     const std::string png = pngOf(folder, false, 0);
     checkRed(packedImage("bgr8; png compressed bgr8", png), "PNG");
-}
-
-TEST_CASE("A mosaic that was compressed as one component is read in colour, and other such images are grey") {
-    const TemporaryFolder folder;
-    const char* const kOrders[] = {"rggb", "grbg", "gbrg", "bggr"}; // by the place of red
-    for (uint32_t at = 0; at < 4; ++at) {
-        const std::string encoding = std::string("bayer_") + kOrders[at], cells = mosaic(at, 1);
-        std::string wide; // as PNG has it: the high byte first
-        for (const char cell : cells) {
-            wide += std::string(1, cell) + '\x12';
-        }
-        checkRed(packedImage(encoding + "8; jpeg compressed ", jpegOf(cells, true)), encoding + " JPEG");
-        checkRed(packedImage(encoding + "8; png compressed ", greyPng(folder, cells, 8)), encoding + " PNG");
-        checkRed(packedImage(encoding + "16; png compressed ", greyPng(folder, wide, 16)),
-                 encoding + "16 PNG");
-    }
-    checkRed(packedImage("bayer_rggb8; jpeg compressed bgr8", jpegOf(255, 0, 0)), "converted before");
-    const std::string grey(kAcross * kDown, '\x50');
-    for (const char* format : {"jpeg", "mono8; jpeg compressed ", "rgb8; jpeg compressed bgr8"}) {
-        CHECK(ros::content(packedImage(format, jpegOf(grey, true))) == ros::Content::Grey);
-    }
-    CHECK(ros::content(packedImage("mono16; png compressed ", greyPng(folder, grey + grey, 16))) ==
-          ros::Content::Depth);
-    const std::string cut = jpegOf(mosaic(0, 1), true);
-    std::vector<uint32_t> out(kAcross * kDown);
-    const std::string head = cut.substr(0, cut.size() / 2);
-    CHECK_FALSE(readRows(packedImage("bayer_rggb8; jpeg compressed ", head), out).empty());
 }
 
 TEST_CASE("Big-endian images give the same depth, metres and colours as little-endian ones") {
