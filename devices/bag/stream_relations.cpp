@@ -45,6 +45,14 @@ bool oneCentre(const ImageStream& depth, const ImageStream& colour) {
            (resizedLens(a, b) || (!turned && !second && (focal || namedRegistered(depth.name))));
 }
 
+// Why colour has no lens, with the options that play the recording without it.
+std::string unusableColour(const ImageStream& colour) {
+    const bool listed = colour.noLens.find("(allowed: ") != std::string::npos && colour.noLens.ends_with(')');
+    const bool file = colour.noLens.find("intrinsics=FILE") != std::string::npos;
+    return colour.noLens.substr(0, colour.noLens.size() - (listed ? 1 : 0)) + "; or colour=none" +
+           (file ? "" : " or intrinsics=FILE") + " after the file name" + (listed ? ")" : "");
+}
+
 bool isIdentity(const Pose& pose) {
     return glm::length(pose.position) < 1e-9 && std::abs(std::abs(pose.rotation.w) - 1.0) < 1e-12;
 }
@@ -65,7 +73,7 @@ StreamRelation StreamRelations::between(const ImageStream& depth, const ImageStr
         return byGivenLens(depth, colour);
     }
     if (!depth.lens || (!colour.lens && !(alike && sameFrame && namedRegistered(depth.name)))) {
-        return {0, false, {}, depth.lens ? colour.noLens : depth.noLens};
+        return {0, false, {}, depth.lens ? unusableColour(colour) : depth.noLens};
     }
     if (!options_.extrinsics.empty()) {
         return {3, false, readExtrinsics(options_.extrinsics), ""};

@@ -152,3 +152,28 @@ TEST_CASE("Aligned depth with another camera's lens than colour has a warning th
     CHECK(warned(aligned, "camera", {7.0, 7.0, 3.5, 2.5}) == "");
     CHECK(warned(aligned, "camera", {6.8, 6.8, 3.6, 2.4}) == "");
 }
+
+TEST_CASE("A colour lens that cannot be used is rejected with the options that play the recording") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](const InfoMessage& colour) {
+        BagMaker maker;
+        addStream(maker, "/cam/depth/image_raw", depthImage(500, "depth"), {.frame = "depth"});
+        addStream(maker, "/cam/rgb/image_raw", redImage("rgb"), colour);
+        return maker;
+    };
+    const BagMaker omni = bagOf({.frame = "rgb", .model = "omni", .distortion = {0.1, 0.0, 0.0, 0.0}}),
+                   sized = bagOf({.frame = "rgb", .width = 80});
+    for (const BagMaker& maker : {omni, sized}) {
+        const std::string refusal = streamRefusal(folder, maker);
+        mentions(refusal, "/cam/rgb/camera_info: ");
+        mentions(refusal, "; or colour=none or intrinsics=FILE after the file name");
+        BagCamera camera = playStreams(folder, maker, {.colour = "none"});
+        CHECK(firstDepth(camera) == doctest::Approx(0.5));
+    }
+    mentions(streamRefusal(folder, sized), "applied; or colour=none or intrinsics=FILE after the file name)");
+    BagMaker none;
+    addStream(none, "/cam/depth/image_raw", depthImage(500, "depth"), {.frame = "depth"});
+    none.add("/cam/rgb/image_raw", "sensor_msgs/Image", 1.0, imageMessage(1.0, redImage("rgb")));
+    mentions(streamRefusal(folder, none),
+             "or intrinsics=FILE after the file name; or colour=none after the file name)");
+}
