@@ -2,6 +2,7 @@
 #include "devices/bag/stream_description.h"
 
 #include "devices/bag/compressed_colour.h"
+#include "devices/bag/stream_names.h"
 #include "devices/bag/topic_words.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/range_images.h"
@@ -12,6 +13,18 @@
 #include <cmath>
 
 namespace fathom {
+
+namespace {
+
+// "/robot1" of "/robot1/camera/image_raw"; empty for a shorter topic, which begins with a camera's name.
+std::string robotOf(const std::string& topic) {
+    const std::string base = baseTopic(topic);
+    const size_t end = base.find('/', 1);
+    const bool longer = end != std::string::npos && base.find('/', end + 1) != std::string::npos;
+    return longer ? base.substr(0, end) : "";
+}
+
+} // namespace
 
 StreamDescription::StreamDescription(const MessageFile& file, const SourceOptions& options,
                                      const std::vector<ImageStream>& streams)
@@ -83,10 +96,36 @@ std::string StreamDescription::alignedWarning(const ImageStream& depth, const Im
            "it";
 }
 
+// Robots of one kind have equal frames, and a recording of several has one tf, which relates any depth to any
+// colour. Frames that begin as their topics are told apart.
+std::string StreamDescription::robotsWarning(const ImageStream& depth, const ImageStream& colour) const {
+    const std::string ofDepth = robotOf(depth.name), ofColour = robotOf(colour.name);
+    const auto hasMore = [&](const std::string& robot) {
+        return std::ranges::any_of(file_.topics(), [&](const MessageTopic& topic) {
+            return topic.name.starts_with(robot + "/") && topic.name != depth.name &&
+                   topic.name != colour.name;
+        });
+    };
+    const auto namesRobot = [](const ImageStream& stream, const std::string& robot) {
+        return stream.frame.find(robot.substr(1)) != std::string::npos;
+    };
+    const bool asked = !options_.depth.empty() && !options_.colour.empty();
+    if (asked || ofDepth.empty() || ofColour.empty() || ofDepth == ofColour || !hasMore(ofDepth) ||
+        !hasMore(ofColour) || namedOneCamera(depth.name, colour.name) || namesRobot(depth, ofDepth) ||
+        namesRobot(colour, ofColour)) {
+        return "";
+    }
+    return depth.name + " and " + colour.name + " may be of two robots, " + ofDepth + " and " + ofColour +
+           ", whose frames have equal names; depth=TOPIC and colour=TOPIC choose others or confirm these";
+}
+
 void StreamDescription::addWarnings(StreamChoice& choice) const {
     warnOf(choice.depth, choice.warnings);
     if (choice.colour) {
         warnOf(*choice.colour, choice.warnings);
+        if (const std::string robots = robotsWarning(choice.depth, *choice.colour); !robots.empty()) {
+            choice.warnings.push_back(robots);
+        }
     }
     const std::string axis = axisWarning(choice.depth.name, "a file of the lens (intrinsics=FILE)");
     if (!axis.empty() && !choice.rangeImages) {

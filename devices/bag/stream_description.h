@@ -26,6 +26,7 @@ public:
     void addWarnings(StreamChoice& choice) const;
 
 private:
+    std::string robotsWarning(const ImageStream& depth, const ImageStream& colour) const;
     void warnOf(const ImageStream& stream, std::vector<std::string>& warnings) const;
 
     const MessageFile& file_;

@@ -185,3 +185,25 @@ TEST_CASE("Poses of cameras side by side, converging or on one arm have no warni
     }
     CHECK_FALSE(warns(playStreams(folder, turnedRig(4.0, 0.0, "mono8")), "between the lenses"));
 }
+
+TEST_CASE("Depth and colour of two robots with equal frames are named, unless they are asked for") {
+    const TemporaryFolder folder;
+    const auto warned = [&](const std::string& depth, const std::string& colour, const std::string& frame,
+                            const SourceOptions& options = {}) {
+        BagMaker maker;
+        addStream(maker, depth, depthImage(500, frame + "depth_optical"), {.frame = frame + "depth_optical"});
+        addStream(maker, colour, redImage("color_optical"),
+                  {.frame = "color_optical", .k = {6.0, 6.0, 3.5, 2.5}});
+        Out link{Out().put(uint32_t{1}).bytes + stampedHeader(1.0, frame + "depth_optical")};
+        link.text("color_optical").bytes += transformMessage(0.015, 0.0, 0.0);
+        maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link.bytes);
+        return warns(playStreams(folder, maker, options), "may be of two robots, ");
+    };
+    const std::string depth = "/robot1/camera/depth/image_raw", colour = "/robot2/camera/color/image_raw";
+    CHECK(warned(depth, colour, ""));
+    CHECK_FALSE(warned(depth, colour, "", {.depth = depth, .colour = colour}));
+    CHECK_FALSE(warned(depth, colour, "robot1_"));
+    CHECK_FALSE(warned(depth, "/robot1/camera/color/image_raw", ""));
+    CHECK_FALSE(warned("/depth/camera/image_raw", "/rgb/camera/image_raw", ""));
+    CHECK_FALSE(warned("/tof/depth", "/web/image_color", ""));
+}
