@@ -193,7 +193,7 @@ void CloudCamera::learnLens() {
     if (!fault.empty()) {
         refuse(topic().name, fault,
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
-               "and z up");
+               "and z up; points without a measurement are NaN or 0");
     }
     addWarning(metresWarning(file_->file().string(), seen));
     if (const std::string warning = lensWarning(fit_.lens); !warning.empty()) {

@@ -180,7 +180,7 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
             "deviates from the rays of a pinhole and of a fan" +
                 (fit.fault.empty() ? " by " + std::to_string(fit.residual) + " pixels" : ": " + fit.fault),
             "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
-            "and z backward, or x forward and z up");
+            "and z backward, or x forward and z up; points without a measurement are NaN or 0");
     }
     if (const std::string warning = lensWarning(fit.lens); !warning.empty()) {
         log::warn("{}: {}", file.string(), warning);

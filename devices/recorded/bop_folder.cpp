@@ -40,6 +40,10 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
         const JsonField entry = root.at(key);
         BopImage image;
         image.key = key;
+        if (entry.find("cam_model") && !entry.find("cam_K")) { // HOT3D
+            throw BadInput(file.string(), key + ".cam_K", "missing",
+                           std::string("cam_K row by row, ") + kLensRows + "; cam_model is not read");
+        }
         const std::vector<double> k = entry.at("cam_K").numbers(9);
         std::copy(k.begin(), k.end(), image.k.begin());
         image.unit = entry.at("depth_scale").positive();

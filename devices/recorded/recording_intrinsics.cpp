@@ -38,9 +38,9 @@ void readPinhole(const JsonField& block, Intrinsics& lens) {
         lens.cy = ownField(block, "cy").finite();
         return;
     }
-    const std::vector<double> k = matrix->numbers(9);
-    if (!(k[0] > 0.0 && k[4] > 0.0) || k[8] != 1.0 || k[2] != 0.0 || k[5] != 0.0) {
-        matrix->refuse("fx, 0, 0, 0, fy, 0, cx, cy, 1");
+    const std::vector<double> k = matrix->isNumbers() ? matrix->numbers() : std::vector<double>{};
+    if (k.size() != 9 || !(k[0] > 0.0 && k[4] > 0.0) || k[8] != 1.0 || k[2] != 0.0 || k[5] != 0.0) {
+        matrix->refuse("nine numbers in column-major order: fx, 0, 0, 0, fy, 0, cx, cy, 1");
     }
     lens.fx = k[0];
     lens.fy = k[4];

@@ -79,6 +79,7 @@ TEST_CASE("Clouds that are no depth images are rejected in one line with topic, 
     holds(cloudRefusal(kClouds / "cloud_flat"),
           "/camera/depth/points: a cloud that is not organised: 63x1 points");
     holds(cloudRefusal(kClouds / "cloud_moved"), "points of frame 'camera_optical' deviate from the rays");
+    holds(cloudRefusal(kClouds / "cloud_moved"), "points without a measurement are NaN or 0)");
     holds(cloudRefusal(kClouds / "cloud", {.intrinsics = "lens.json"}),
           "intrinsics: for clouds (allowed: neither");
     holds(cloudRefusal(kClouds / "cloud", {.colour = "/rgb"}), "colour: /rgb (allowed: colour=none");

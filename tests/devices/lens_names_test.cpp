@@ -284,3 +284,17 @@ TEST_CASE("Lenses that the extrinsics of a folder place over a metre apart are r
                  " m between the lenses (allowed: at most 1 m; metres, not millimetres)");
     }
 }
+
+TEST_CASE("A camera model of BOP and a nested matrix of Open3D are refused with what is read instead") {
+    const TemporaryFolder bop;
+    addPair(bop, "depth/0.png", "rgb/0.png", 500);
+    bop.write("scene_camera.json",
+              R"({"0": {"cam_model": {"projection_params": [6, 6, 3, 2]}, "depth_scale": 1}})");
+    mentions(recordingRefusal(bop.path()),
+             "0.cam_K: missing (allowed: cam_K row by row, fx 0 cx, 0 fy cy, 0 0 1 "
+             "with fx and fy above 0; cam_model is not read)");
+    for (const char* matrix : {"[[6, 0, 3], [0, 6, 2], [0, 0, 1]]", "[6, 6, 3, 2]", "{}"}) {
+        mentions(refusalWith(R"({"width": 7, "height": 5, "intrinsic_matrix": )" + std::string(matrix) + "}"),
+                 "(allowed: nine numbers in column-major order: fx, 0, 0, 0, fy, 0, cx, cy, 1)");
+    }
+}
