@@ -3,6 +3,7 @@
 
 #include "apps/binding/raw_path.h"
 #include "apps/operate/arming.h"
+#include "engine/cycle/start_notes.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -105,6 +106,7 @@ void LiveRun::makeHand(const std::vector<Shape>& shapes, const Pose& start, cons
     cycle_ =
         std::make_unique<HapticCycle>(session_.tool, shapes, haptics_, raw,
                                       tool != nullptr || anywhere ? &place : nullptr, session_.arm.get());
+    start_ = cycle_->place();
 }
 
 void LiveRun::makeEngine(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool) {
@@ -208,6 +210,10 @@ uint32_t LiveRun::buttonsOf(const Console& console) const {
     const uint32_t grasp = arm ? arm->grasp.button : 0;
     return (switches.guidance ? kGuidanceButton : 0) | (switches.clutch ? session_.scene.hand.clutchBit : 0) |
            (switches.grasp ? grasp : 0);
+}
+
+void LiveRun::warnOfStart(const Scene& scene) const {
+    fathom::warnOfStart(scene, session_.tool, session_.arm.get(), start_);
 }
 
 void LiveRun::setShapes(const std::vector<Shape>& shapes) {

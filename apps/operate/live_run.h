@@ -43,6 +43,8 @@ public:
     HandDeviceFacts device() const;
     void forcesOff() { hand_->setForces(false); }
     void setShapes(const std::vector<Shape>& shapes);
+    // Logs which shapes of the scene push the tool from where the run started. After start() and restart().
+    void warnOfStart(const Scene& scene) const;
 
     bool ended() const { return thread_->ended(); }
     std::exception_ptr failure() const { return thread_->failure(); }
@@ -71,6 +73,7 @@ private:
     SessionFeed feed_;
     std::unique_ptr<RealtimeRun> engine_;
     std::unique_ptr<HapticCycle> cycle_;
+    ToolPlace start_; // of the run, because the haptic thread moves cycle_
     std::unique_ptr<PilotHand> pilot_;
     std::unique_ptr<PathHand> path_;
     std::unique_ptr<GatedHand> hand_;

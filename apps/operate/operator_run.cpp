@@ -46,6 +46,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
     keepScene(0);
     live_.start(editor_.shapes());
+    live_.warnOfStart(editor_.scene());
     display_.console.switches.forces = forces_.wereOn = options_.armed;
     window_.onForcesOff = [this] {
         live_.forcesOff(); // at once, before the rest of this frame
@@ -224,6 +225,7 @@ void OperatorRun::switchPilot() {
     display_.view.rewind();
     editor_.keepSettings(console.settings.saved(), name);
     live_.restart(editor_.shapes(), stays ? &last : nullptr);
+    live_.warnOfStart(editor_.scene());
     console.notify(name + " is the pilot now: switch forces on");
 }
 

@@ -4,8 +4,10 @@
 #include "apps/binding/arm_axes.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
+#include "apps/binding/raw_path.h"
 #include "engine/cycle/arm_text.h"
 #include "engine/cycle/haptic_notes.h"
+#include "engine/cycle/start_notes.h"
 #include "engine/gpu/device.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/types/error.h"
@@ -16,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
 namespace fathom {
 
@@ -70,14 +73,37 @@ void printRefusals(const Scene& scene, const ArmSetup* arm) {
     }
 }
 
+// start: base_T_tool of the hand's path, if there is a file.
+void printStart(const Scene& scene, const Tool& tool, const ArmSetup* arm, const std::optional<Pose>& start) {
+    if (arm == nullptr && !start) {
+        return;
+    }
+    const ToolPlace place{start.value_or(Pose{}), arm != nullptr ? arm->startPosture() : ArmPosture{}};
+    for (const std::string& note : startNotes(scene, tool, arm, place)) {
+        std::cout << "warning " << note << "\n";
+    }
+}
+
+void printArm(const ArmSetup& arm) {
+    std::cout << "arm     " << arm.model.count() << " joints, " << arm.model.leaves.size() << " leaves on "
+              << arm.model.links.size() << " links\n";
+    for (const std::string& line : describeArm(arm)) {
+        std::cout << "        " << line << "\n";
+    }
+    for (const std::string& note : arm.model.notes) {
+        std::cout << "        " << note << "\n";
+    }
+}
+
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const auto arm = openArm(scene);
     const Tool tool = openTool(scene, arm.get());
+    std::optional<Pose> start;
     if (!scene.hand.builtIn && isRegularFile(scene.hand.path)) { // a live hand needs none
-        openHandPath(scene.hand.path, scene, camera->info().poseless);
+        start = startOf(openHandPath(scene.hand.path, scene, camera->info().poseless), scene);
     }
     const DeviceFacts facts = factsFor(scene, global);
     const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
@@ -87,16 +113,10 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
               << ")\n"
               << "tool    " << tool.leafCount() << " leaves\n";
     if (arm) {
-        std::cout << "arm     " << arm->model.count() << " joints, " << arm->model.leaves.size()
-                  << " leaves on " << arm->model.links.size() << " links\n";
-        for (const std::string& line : describeArm(*arm)) {
-            std::cout << "        " << line << "\n";
-        }
-        for (const std::string& note : arm->model.notes) {
-            std::cout << "        " << note << "\n";
-        }
+        printArm(*arm);
     }
     printNotes(scene, camera->info(), global.device);
+    printStart(scene, tool, arm.get(), start);
     printRefusals(scene, arm.get());
     std::cout << "\nin: this scene uses it; out: it does not\n";
     printPlan(std::cout, plan);

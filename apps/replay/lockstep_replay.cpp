@@ -233,8 +233,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
                    // own time on
     path_.emplace(session_.path());
     hand_ = openPathHand(*path_, session_.scene, options_.yields(session_.scene));
-    cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
-                   session_.arm.get());
+    makeCycle(hand_->read(0.0).deviceThandle, nullptr);
     play();
     warnOfRate();
 

@@ -98,8 +98,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     } else {
         const std::unique_ptr<HapticDevice> hand =
             openPathHand(path, session_.scene, options_.yields(session_.scene));
-        cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
-                       session_.arm.get());
+        makeCycle(hand->read(0.0).deviceThandle, nullptr);
         run_->run(*cycle_, *hand, path.duration(), faults_, signals_.requested());
     }
     progress_.finish();
@@ -123,8 +122,7 @@ void RealtimeReplay::runLive(const HandPath& path) {
     LiveHand& hand = *session_.liveHand;
     awaitHand(hand, signals_.requested(), options_.seconds);
     const Pose start = startOf(path, session_.scene);
-    cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
-                   session_.arm.get());
+    makeCycle(hand.read(0.0).deviceThandle, &start);
     watched_.emplace(hand);
     run_->run(*cycle_, *watched_, options_.seconds, faults_, signals_.requested());
 }

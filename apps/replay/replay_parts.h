@@ -8,6 +8,7 @@
 #include "apps/session/session.h"
 #include "engine/contact/shapes.h"
 #include "engine/cycle/haptic_cycle.h"
+#include "engine/cycle/start_notes.h"
 
 #include <optional>
 #include <vector>
@@ -24,6 +25,12 @@ protected:
         , shapes_(shapesOf(session.scene))
         , haptics_(makeHapticOptions(session.scene, session.tool))
         , audit_(session.tool, session.arm.get()) {}
+
+    // hand: its first raw pose. tool0: where the tool starts; null = where the hand commands it.
+    void makeCycle(const Pose& hand, const Pose* tool0) {
+        cycle_.emplace(session_.tool, shapes_, haptics_, hand, tool0, session_.arm.get());
+        warnOfStart(session_.scene, session_.tool, session_.arm.get(), cycle_->place());
+    }
 
     Session& session_;
     const ReplayOptions& options_;

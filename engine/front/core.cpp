@@ -2,6 +2,7 @@
 #include "engine/front/core.h"
 
 #include "engine/cycle/haptic_notes.h"
+#include "engine/cycle/start_notes.h"
 #include "engine/run/open_scene.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/types/decimation.h"
@@ -57,7 +58,8 @@ HapticSetup::HapticSetup(const fathom::Scene& from, const CameraInfo& camera, co
     , arm(openArm(scene, readerOf(given)))
     , tool(openTool(scene, arm.get(), readerOf(given)))
     , shapes(shapesOf(scene))
-    , options(makeHapticOptions(scene, tool)) {}
+    , options(makeHapticOptions(scene, tool))
+    , measuredArm(given.measuredArm) {}
 
 std::unique_ptr<HapticCycle> HapticSetup::cycle(const v0::HandStart& start) const {
     checkStart("deviceThandle", start.deviceThandle);
@@ -66,8 +68,12 @@ std::unique_ptr<HapticCycle> HapticSetup::cycle(const v0::HandStart& start) cons
     if (start.baseTtool) {
         checkStart("baseTtool", *start.baseTtool);
     }
-    return std::make_unique<HapticCycle>(tool, shapes, options, hand, start.baseTtool ? &begin : nullptr,
-                                         arm.get());
+    auto cycle = std::make_unique<HapticCycle>(tool, shapes, options, hand,
+                                               start.baseTtool ? &begin : nullptr, arm.get());
+    if (!measuredArm) {
+        warnOfStart(scene, tool, arm.get(), cycle->place());
+    }
+    return cycle;
 }
 
 ComputeState::ComputeState(const HapticSetup& setup, const CameraInfo& camera, const std::string& device)

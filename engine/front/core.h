@@ -44,6 +44,7 @@ struct HapticSetup {
     Tool tool;
     std::vector<Shape> shapes;
     HapticOptions options;
+    bool measuredArm = false; // starts where the real arm stands, not at the scene's posture
 };
 
 // Data for the frame and contact threads. `haptic` must outlive it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes with placed shapes only, tools of one to a thousand leaves, and a distant base frame.
 #include "tests/rig/stage.h"
+#include "tests/support/mentions.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <sstream>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
@@ -80,6 +82,29 @@ TEST_CASE("A forbidden cylinder keeps the tool off its side") {
              "0.7071067811865476]}, size: [0.05, 0.4, 0]", // the axis along x
              {{0.0, {0.0, 0.0, 0.52}}, {0.2, {0.02, 0.0, 0.556}}, {0.5, {0.05, 0.06, 0.58}}},
              [](const dvec3& p) { return std::hypot(p.y, p.z - 0.6) - 0.05 - kLeaf; });
+}
+
+TEST_CASE("The plan and the log of a replay name a shape that the tool starts on the wrong side of") {
+    Stage stage;
+    stage.recording({bumpImage(), bumpImage()});
+    SceneText scene;
+    scene.hand = "path: hand.csv";
+    scene.fixtures = {
+        "name: box, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0, 0.6]}, size: [0.2, 0.2, 0.2]",
+        "name: bowl, role: keep_in, shape: sphere, base_T_shape: {xyz: [0, 0, 0.9]}, size: [0.2, 0, 0]"};
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.6}}, {0.1, {0.0, 0.0, 0.6}}});
+    const ProgramRun plan =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    const ProgramRun run = runFathom(stage.command());
+    CHECK(run.exitCode == 0);
+    for (const char* line : {"fixture 'box': the tool starts 110 mm inside of it and is moved out; the hand "
+                             "feels up to the force limit\n",
+                             "fixture 'bowl': the tool starts 110 mm outside of it and is moved in; the hand "
+                             "feels up to the force limit\n"}) {
+        mentions(plan.out, "warning " + std::string(line));
+        mentions(run.err, "warning: " + std::string(line));
+    }
 }
 
 TEST_CASE("A line lets the tool move along it only") {
