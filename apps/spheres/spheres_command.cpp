@@ -219,9 +219,7 @@ void runSpheres(SpheresOptions options) {
     options.file.up = options.up.empty() ? '\0' : options.up[0];
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
-    if (!loaded.warning.empty()) {
-        log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.warning);
-    }
+    warnOfMesh(options.mesh, loaded);
     CoverMaker maker(loaded);
     const Cover cover = coverOf(maker, options);
     writeCover(options, cover);

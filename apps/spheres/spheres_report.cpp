@@ -2,6 +2,7 @@
 #include "apps/spheres/spheres_report.h"
 
 #include "apps/output/curve_plot.h"
+#include "engine/types/log.h"
 #include "engine/types/output_file.h"
 
 #include <iomanip>
@@ -35,6 +36,15 @@ nlohmann::json jsonOf(const CoverRow& row) {
 }
 
 } // namespace
+
+void warnOfMesh(const std::filesystem::path& file, const LoadedMesh& loaded) {
+    if (!loaded.warning.empty()) {
+        log::warn("{}: {}; set the unit with --scale", file.string(), loaded.warning);
+    }
+    for (const std::string& text : loaded.notes) {
+        log::warn("{}: {}", file.string(), text);
+    }
+}
 
 void printMesh(std::ostream& out, const LoadedMesh& loaded) {
     const MeshFacts& f = loaded.facts;

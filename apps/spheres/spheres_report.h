@@ -21,6 +21,8 @@ struct CoverRow { // one method of covering the mesh
 
 // Prints facts of the file and changes by cleaning, one line each; for a clean mesh only its size.
 void printMesh(std::ostream& out, const LoadedMesh& loaded);
+// Logs what a file states and is doubtful, ignored or applied on top of --scale.
+void warnOfMesh(const std::filesystem::path& file, const LoadedMesh& loaded);
 void printRows(std::ostream& out, const std::vector<CoverRow>& rows);
 
 // Plots worst and mean protrusion over leaf count, one curve per method, on logarithmic axes.

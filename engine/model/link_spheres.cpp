@@ -59,6 +59,9 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     if (!loaded.warning.empty()) {
         made.notes.push_back(file.string() + ": " + loaded.warning);
     }
+    for (const std::string& note : loaded.notes) {
+        made.notes.push_back(file.string() + ": " + note);
+    }
     return loaded;
 }
 

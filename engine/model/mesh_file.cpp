@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/mesh_file.h"
 
+#include "engine/model/dae_file.h"
 #include "engine/model/import_triangles.h"
-#include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/number_text.h"
-#include "engine/types/parse_number.h"
-#include "engine/types/printable.h"
 #include "engine/types/printed.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
+#include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -51,48 +49,7 @@ dvec3 upright(const dvec3& p, char up) {
     return up == 'x' ? dvec3(-p.z, p.y, p.x) : p;
 }
 
-// The library would take 1 m for a unit that it cannot read, and mirror the mesh for a negative one.
-void checkDaeUnit(const std::string& file, const std::string& metre) {
-    std::string number = metre.substr(metre.starts_with('+') ? 1 : 0);
-    std::ranges::replace(number, ',', '.'); // of exporters in some locales
-    double value = 1.0;
-    if (!metre.empty() && !(parseWhole(number, value) && value > 0.0 && std::isfinite(value))) {
-        throw BadInput(file, "unit", "meter=\"" + printable(metre) + "\"", "metres per unit, above 0");
-    }
-}
-
-bool isIdentity(const std::string& matrix) {
-    std::istringstream in(matrix);
-    in.imbue(std::locale::classic()); // not the program's own
-    double value = 0.0;
-    size_t count = 0;
-    for (; in >> value; ++count) {
-        if (!(std::abs(value - (count % 5 == 0 ? 1.0 : 0.0)) <= 1e-6)) {
-            return false;
-        }
-    }
-    return count == 16;
-}
-
-// Throws for what the library reads without a word as another shape: units that are no size, fans of
-// triangles (it loses their middle), and skins whose geometry is moved first.
-void checkDae(const std::filesystem::path& file) {
-    const std::string text = endingOf(file) == ".dae" ? readFileAtMost(file, kLargestMesh).value_or("") : "";
-    for (XmlTags tags(text); tags.next();) {
-        const std::string_view name = tags.tag().name;
-        if (name == "unit" && tags.path() == "COLLADA/asset") {
-            checkDaeUnit(file.string(), xmlAttribute(tags.tag().text, "meter"));
-        } else if (name == "trifans") {
-            throw BadInput(file.string(), "mesh", "<trifans>", "triangles, polylist, polygons or tristrips");
-        } else if (const std::string matrix = name == "bind_shape_matrix" ? tags.content() : "";
-                   !matrix.empty() && !isIdentity(matrix)) {
-            throw BadInput(file.string(), "bind_shape_matrix", printable(matrix.substr(0, 160)),
-                           "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1; apply the armature before you export the mesh");
-        }
-    }
-}
-
-TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOptions& reader) {
+TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOptions& reader, DaeFacts& facts) {
     const std::string kinds = "a readable STL, OBJ or COLLADA (.dae) mesh";
     if (!isRegularFile(file)) {
         std::error_code failed;
@@ -114,7 +71,9 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     }
     refuseStandIn(file, kinds);
     noteInput(file);
-    checkDae(file);
+    if (kind == ".dae") {
+        facts = checkDae(file);
+    }
     auto [mesh, fault] = importTriangles(file, reader);
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);
@@ -154,6 +113,24 @@ std::string unitWarning(const std::filesystem::path& file, const MeshOptions& op
     return metres(extent) + " large if its unit is the metre, which the file does not state (inches?)";
 }
 
+// size: of the mesh as it is read [m].
+std::vector<std::string> daeNotes(const DaeFacts& facts, const MeshOptions& options, const dvec3& size) {
+    std::vector<std::string> notes;
+    if (options.scale && *options.scale != 1.0 && facts.metre != 1.0) {
+        notes.push_back("the file's unit of " + significant(facts.metre, 6) + " m and --scale " +
+                        significant(*options.scale, 6) + " both apply: it is " +
+                        printed("%.4g x %.4g x %.4g m", size.x, size.y, size.z) + " large");
+    }
+    if (!options.ofUrdf && options.up == 0 && (facts.up == "Y_UP" || facts.up == "X_UP")) {
+        notes.push_back("states " + facts.up + ", which is not applied; --up " +
+                        (facts.up == "Y_UP" ? "y" : "x") + " turns it");
+    }
+    if (facts.skin) {
+        notes.emplace_back("has a <skin>: its mesh is read as it is, without the poses of its joints");
+    }
+    return notes;
+}
+
 } // namespace
 
 LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& options) {
@@ -161,7 +138,8 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
     if (!(scale > 0.0) || !std::isfinite(scale)) {
         throw BadInput(file.string(), "--scale", significant(scale, 6), "a positive number");
     }
-    LoadedMesh loaded{readTriangles(file, options.reader), {}, {}};
+    DaeFacts stated;
+    LoadedMesh loaded{readTriangles(file, options.reader, stated), {}, {}, {}};
     TriangleMesh& mesh = loaded.mesh;
     for (dvec3& p : mesh.points) {
         p = upright(p * options.stretch * scale, options.up);
@@ -178,6 +156,7 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
                        "one group of pieces; --drop-stray leaves them out");
     }
     loaded.warning = unitWarning(file, options, checkExtent(file.string(), mesh, options.ofUrdf));
+    loaded.notes = daeNotes(stated, options, mesh.high() - mesh.low());
     return loaded;
 }
 

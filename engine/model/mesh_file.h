@@ -7,6 +7,8 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -27,7 +29,8 @@ struct MeshOptions {
 struct LoadedMesh {
     TriangleMesh mesh; // [m], tidy
     MeshFacts facts;
-    std::string warning; // why its unit is probably wrong; empty = none
+    std::string warning;            // why its unit is probably wrong; empty = none
+    std::vector<std::string> notes; // what a .dae states that is not applied, or on top of --scale
 };
 
 // Node transforms are applied; a .dae's <unit> is applied, its <up_axis> is not (as ROS programs do). Throws
