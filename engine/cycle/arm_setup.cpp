@@ -184,11 +184,27 @@ private:
         for (const std::string& line : narrowByMimics(model)) {
             note(line);
         }
+        refuseNarrowed();
         for (size_t k = 0; k < model.count(); ++k) {
             armSetup_->start[k] =
                 std::clamp(armSetup_->start[k], model.joints[k].lower, model.joints[k].upper);
         }
         model.follow(armSetup_->start);
+    }
+
+    // Limits of mimic joints are divided by their multipliers, and so rounded.
+    void refuseNarrowed() const {
+        constexpr double kRounded = 1e-9;
+        for (size_t i = 0; i < arm_.joints.size(); ++i) {
+            const std::string field = "joints[" + std::to_string(i) + "]";
+            const ArmJoint& joint = armSetup_->model.joints[indexOf(field, arm_.joints[i].name)];
+            const double start = arm_.joints[i].start.value_or(joint.lower);
+            if (start < joint.lower - kRounded || start > joint.upper + kRounded) {
+                refuse(field + ".start", text(start),
+                       text(joint.lower) + " to " + text(joint.upper) + ", the limits of " +
+                           joint.limitsFrom);
+            }
+        }
     }
 
     void noteSpeeds() {
@@ -245,46 +261,6 @@ private:
 };
 
 } // namespace
-
-ArmFrames ArmSetup::framesAt(const ArmPosture& posture) const noexcept {
-    ArmFrames frames;
-    model.place(posture.q, baseTarm, frames, posture.grasp);
-    return frames;
-}
-
-std::vector<Sphere> ArmSetup::aboutTip(const ArmPosture& posture) const {
-    const ArmFrames frames = framesAt(posture);
-    const Pose tipTbase = inverse(model.tip(frames));
-    std::vector<Sphere> spheres;
-    for (size_t i = 0; i < model.leaves.size(); ++i) {
-        spheres.push_back({tipTbase.apply(model.centre(frames, i)), model.leaves[i].sphere.radius});
-    }
-    return spheres;
-}
-
-cloud::ArmSpheres ArmSetup::inImage(const ArmPosture& posture) const {
-    const ArmFrames frames = framesAt(posture);
-    cloud::ArmSpheres arm;
-    for (size_t i = 0; i < model.leaves.size(); ++i) {
-        if (i > 0 && model.leaves[i].link != model.leaves[i - 1].link) {
-            arm.ends.push_back(static_cast<uint32_t>(i));
-        }
-        arm.spheres.push_back({model.centre(frames, i), model.leaves[i].sphere.radius + padding});
-    }
-    arm.ends.push_back(static_cast<uint32_t>(model.leaves.size()));
-    return arm;
-}
-
-Tool ArmSetup::heldTool() const {
-    const std::vector<Sphere> all = aboutTip({start, 0.0});
-    std::vector<Sphere> held;
-    for (size_t i = 0; i < all.size(); ++i) {
-        if (model.leaves[i].joint == model.count()) {
-            held.push_back(all[i]);
-        }
-    }
-    return Tool(buildSphereTree(held.empty() ? all : held));
-}
 
 std::unique_ptr<ArmSetup> makeArmSetup(const Scene& scene, std::span<const Sphere> toolLeaves,
                                        const ReaderOptions& reader) {

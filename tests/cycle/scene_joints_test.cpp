@@ -149,3 +149,23 @@ TEST_CASE("Notes say which links a keep_in shape holds, and which ones are in a 
         CHECK(note.find("fixture") == std::string::npos);
     }
 }
+
+TEST_CASE("A start that a mimic joint's limits do not allow is rejected with that joint") {
+    const auto urdf = urdfFile(ballLink("a") + ballLink("b") + ballLink("c") +
+                               jointText("j", "revolute", "a", "b", "0 0 0.3", "0 1 0") +
+                               jointText("follower", "revolute", "b", "c", "0 0 0.3", "0 1 0",
+                                         "<limit lower='-9' upper='9' velocity='1' effort='1'/>" +
+                                             mimicText("j", "multiplier='3'")));
+    const auto startAt = [&](double start) {
+        Scene scene;
+        scene.arm.emplace();
+        scene.arm->urdf = urdf.path();
+        scene.arm->base = "a";
+        scene.arm->tip = "c";
+        scene.arm->joints = {{"j", {}, {}, {}, start}, {"follower", -0.9, 0.9, {}, {}}};
+        return makeArmSetup(scene, {})->start[0];
+    };
+    CHECK(startAt(0.3) == doctest::Approx(0.3)); // at the limit
+    CHECK(refusalOf([&] { startAt(1.5); }) ==
+          ": arm.joints[0].start: 1.5 (allowed: -0.3 to 0.3, the limits of mimic joint follower)");
+}
