@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kFewValues = 30.0; // of depth between near and far
 constexpr double kMaxRaw = 65535.0;
+constexpr double kFewDegrees = 1.0; // that a gate passes which wraps through 0
 
 // Length of the longest ray of the image per metre of depth. Infinite for a distorted lens.
 double longestRay(const Intrinsics& lens) {
@@ -98,6 +99,9 @@ std::vector<std::string> hueNotes(const Scene& scene) {
         const std::string named = "fixture '" + f.name + "': hue " + printed("[%.6g, %.6g]", lo, hi);
         if (lo == hi) {
             notes.push_back(named + " passes one hue only, not a range");
+        } else if (lo > hi && hi + 360.0 - lo < kFewDegrees) {
+            notes.push_back(named + " wraps through 0 and passes " + printed("%.3g", hi + 360.0 - lo) +
+                            " degrees only; " + printed("[%.6g, %.6g]", hi, lo) + " passes the others");
         } else if (std::max(lo, hi) <= 1.0) {
             notes.push_back(named + " is in degrees, 0 to 360" +
                             printed("; if it is a share of 1, give [%.6g, %.6g]", 360.0 * lo, 360.0 * hi));

@@ -143,8 +143,12 @@ TEST_CASE("Hues that are shares of 1 or one number are named, and ranges of degr
         "fixture 'valve': hue [0.95, 0.05] is in degrees, 0 to 360; if it is a share of 1, give [342, 18]\n");
     CHECK(notes("hue: [0, 1]") != "");
     CHECK(notes("hue: [120, 120]") == "fixture 'valve': hue [120, 120] passes one hue only, not a range\n");
-    for (const char* good : {"hue: [345, 20]", "hue: [0, 20]", "hue: [359, 1]", "hue: [0.5, 12]",
-                             "radius: 0.04", "saturation: [0.5, 1]", "lightness: [0, 1]"}) {
+    CHECK(notes("hue: [360, 0]") == "fixture 'valve': hue [360, 0] wraps through 0 and passes 0 degrees "
+                                    "only; [0, 360] passes the others\n");
+    CHECK(notes("hue: [359.75, 0]") != "");
+    for (const char* good :
+         {"hue: [359, 0]", "hue: [0, 360]", "hue: [345, 20]", "hue: [0, 20]", "hue: [359, 1]",
+          "hue: [0.5, 12]", "radius: 0.04", "saturation: [0.5, 1]", "lightness: [0, 1]"}) {
         CAPTURE(good);
         CHECK(notes(good) == "");
     }
