@@ -152,6 +152,10 @@ public:
                 "a file on this machine: download it, and name that file; package://, model:// "
                 "and file:// are read"};
         }
+        if (sameButCapitals(name_.substr(0, 5), "file:") && !sameButCapitals(name_.substr(0, 7), "file://")) {
+            throw ShapeRefused{"mesh '" + excerpt(name_) + "' not found",
+                               "file:// before an absolute path, or a path without file:"};
+        }
         throw ShapeRefused{
             "mesh '" + excerpt(name_) + "' not found; looked for " + excerpt(looked_, 1000),
             "an existing file; arm.meshes names the folder to use for package:// and model://"};

@@ -4,6 +4,7 @@
 #include "engine/reader/answers.h"
 #include "engine/reader/obj_text.h"
 #include "engine/reader/stl_text.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
 #include <assimp/Importer.hpp>
@@ -15,6 +16,8 @@
 namespace fathom {
 
 namespace {
+
+constexpr size_t kLongestReason = 200; // Assimp may quote the rest of the file
 
 // Counts all instances, because a few bytes can reference one mesh a million times. Stops at the limit.
 size_t countPoints(const aiScene& scene, const aiNode& node) {
@@ -66,7 +69,7 @@ std::string readWithAssimp(const std::filesystem::path& file, const std::string&
     }();
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string why = importer.GetErrorString();
-        return why.empty() ? "not understood" : why.substr(0, why.find('\n'));
+        return why.empty() ? "not understood" : excerpt(why.substr(0, why.find('\n')), kLongestReason);
     }
     if (countPoints(*scene, *scene->mRootNode) > kMaxImportedPoints) {
         return "over " + std::to_string(kMaxImportedPoints) + " corners";

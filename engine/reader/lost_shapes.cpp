@@ -76,12 +76,15 @@ void refuseLostShapes(const urdf::ModelInterface& model, const std::string& text
             throw BadInput(file, field, "its collision shapes are lost behind an error: " + reason.words,
                            "visual elements as the URDF specification has them");
         }
+        const bool drake = shapes[read].empty() && text.find("<drake:capsule") != std::string::npos;
         const std::string shape = shapes[read].empty() ? "no shape" : excerpt(printable(shapes[read][0]));
-        throw BadInput(file, field,
-                       "collision " + std::to_string(read + 1) + " of " + std::to_string(shapes.size()) +
-                           ": " + shape + ": " + reason.words,
-                       "<box size=\"X Y Z\"/>, <cylinder> or <capsule> with radius and length, <sphere "
-                       "radius=\"R\"/>, <mesh filename=\"FILE\"/> with scale=\"X Y Z\" or without");
+        throw BadInput(
+            file, field,
+            "collision " + std::to_string(read + 1) + " of " + std::to_string(shapes.size()) + ": " + shape +
+                ": " + reason.words,
+            (drake ? "<capsule> instead of <drake:capsule>; " : "") +
+                std::string("<box size=\"X Y Z\"/>, <cylinder> or <capsule> with radius and length, <sphere "
+                            "radius=\"R\"/>, <mesh filename=\"FILE\"/> with scale=\"X Y Z\" or without"));
     }
 }
 

@@ -61,9 +61,25 @@ std::string oneSolid(std::string text) {
     return out + "endsolid\n";
 }
 
+// Of a text in small letters that is one solid without a name.
+std::string withoutNormals(const std::string& text) {
+    std::string out;
+    size_t at = 0;
+    for (size_t normal = 0; (normal = text.find("normal", at)) != std::string::npos;) {
+        const size_t end = text.find("outer", normal);
+        if (end == std::string::npos) {
+            break;
+        }
+        out.append(text, at, normal - at).append("normal 0 0 0\n");
+        at = end;
+    }
+    return out.append(text, at);
+}
+
 // What Assimp does not read.
 struct StlSpelling {
     bool capitals = false, gaps = false; // capital keywords, a solid without facets
+    bool normals = false;                // "-nan(ind)" or "1.#IND" in a normal, which nothing uses
 };
 
 std::string textFault(std::istream& in, StlSpelling& spelling) {
@@ -77,6 +93,8 @@ std::string textFault(std::istream& in, StlSpelling& spelling) {
         }
         const bool named = word == "solid" || word == "endsolid";
         if (!named && word != "facet") {
+            spelling.normals = spelling.normals ||
+                               (facets > 0 && corners == 0 && word.find_first_of("(#") != std::string::npos);
             continue;
         }
         if (facets > 0 && corners != 3) {
@@ -110,16 +128,18 @@ std::string stlFault(const std::filesystem::path& file, std::string& instead) {
     in.read(head.data(), static_cast<std::streamsize>(head.size()));
     head.resize(static_cast<size_t>(in.gcount()));
     in.clear();
-    in.seekg(0);
-    const size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
+    const size_t mark = head.starts_with("\xef\xbb\xbf") ? 3 : 0; // byte order mark of UTF-8
+    const size_t first = std::min(head.find_first_not_of(" \t\r\n", mark), head.size());
+    in.seekg(static_cast<std::streamoff>(first));
     if (!lowerCase(head.substr(first)).starts_with("solid") || head.find('\0') != std::string::npos) {
         return binaryFault(file, head, instead);
     }
     StlSpelling spelling;
     const std::string fault = textFault(in, spelling);
-    if (fault.empty() && (spelling.gaps || spelling.capitals || first > 0)) {
+    if (fault.empty() && (spelling.gaps || spelling.capitals || spelling.normals || first > 0)) {
         instead = lowerCase(readFileAtMost(file, kLargestStl).value_or("").substr(first));
-        instead = spelling.gaps ? oneSolid(instead) : instead;
+        instead = spelling.gaps || spelling.normals ? oneSolid(instead) : instead;
+        instead = spelling.normals ? withoutNormals(instead) : instead;
     }
     return fault;
 }

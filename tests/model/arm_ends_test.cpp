@@ -245,6 +245,13 @@ TEST_CASE("The scheme of a mesh name may have capitals, and a drive of Windows i
     }
 }
 
+TEST_CASE("A missing mesh whose name begins with file: without slashes is told how to write it") {
+    CHECK(urdfRefusal("<link name='a'><collision><geometry><mesh filename='file:s1.stl'/></geometry>"
+                      "</collision></link>")
+              .find("mesh 'file:s1.stl' not found (allowed: file:// before an absolute path, or a path "
+                    "without file:)") != std::string::npos);
+}
+
 TEST_CASE("A mesh on the web is named as such, with the names that are read") {
     for (const std::string scheme : {"https://", "omniverse://"}) {
         const std::string name = scheme + "example.org/m.stl";

@@ -106,3 +106,10 @@ TEST_CASE("Words of collisions in comments and in other elements than links are 
     CHECK(loadUrdf(armWith("<!-- <collision> --><capsule_like/>") + outside).links.size() == 2);
     CHECK(loadUrdf(armWith(shapeText("<capsule radius='0.1' length='0.2'/>"))).links.size() == 2);
 }
+
+TEST_CASE("A capsule of Drake's extension is rejected with the name that is read") {
+    const std::string refusal = urdfRefusal(
+        "<link name='a'><collision><geometry><drake:capsule radius='0.1' length='0.2'/></geometry>"
+        "</collision></link>");
+    CHECK(refusal.find("(allowed: <capsule> instead of <drake:capsule>; <box ") != std::string::npos);
+}

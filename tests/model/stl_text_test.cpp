@@ -108,3 +108,15 @@ TEST_CASE("A binary STL may end in padding, and is rejected with both sizes wher
     }
     CHECK(refusesStl("an STL?", "neither a text that begins with 'solid' nor a binary STL"));
 }
+
+TEST_CASE("A text STL with a byte order mark, or with normals that are no numbers, is read") {
+    const std::string text = "solid normal a\n" + kFacet + kOther + "endsolid normal a\n";
+    CHECK(readStl("\xef\xbb\xbf" + text) == "2");
+    for (const std::string odd : {"-nan(ind) -nan(ind) -nan(ind)", "-1.#IND 1.#QNAN 0"}) {
+        std::string other = text;
+        for (size_t at = 0; (at = other.find("0 0 1\nouter", at)) != std::string::npos; at += odd.size()) {
+            other.replace(at, 5, odd);
+        }
+        CHECK(readStl(other) == "2");
+    }
+}
