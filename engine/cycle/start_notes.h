@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placed shapes that a tool or an arm is on the wrong side of where a run starts. They move it, and push a hand
-// at rest.
+// Placed shapes that a tool or an arm is on the wrong side of where a run starts. They move it, and push a
+// hand at rest.
 #pragma once
 
 #include "engine/cycle/arm_setup.h"
@@ -12,9 +12,10 @@
 namespace fathom {
 
 // One line per forbidden shape and link (without an arm: the tool) that starts inside of it, and per keep_in
-// shape that a tool without an arm starts outside of. With the depth [mm] of the deepest sphere. Not for links
-// that no joint moves (shapeNotes()), nor for links outside of a keep_in shape, which does not hold them. arm:
-// null = `tool` moves freely from start.pose; otherwise the arm starts at start.arm, and `tool` is not read.
+// shape that a tool without an arm starts outside of. With the depth [mm] of the deepest sphere. Not for
+// links that no joint moves (shapeNotes()), nor for links outside of a keep_in shape, which does not hold
+// them. arm: null = `tool` moves freely from start.pose; otherwise the arm starts at start.arm, and `tool` is
+// not read.
 std::vector<std::string> startNotes(const Scene& scene, const Tool& tool, const ArmSetup* arm,
                                     const ToolPlace& start);
 

@@ -57,6 +57,7 @@ public:
             ends.tipWhy = best->gripperBelow ? "the end of the longest chain before a gripper"
                                              : "the end of the longest chain";
         }
+        noteShorter(ends, *best);
         noteOthers(ends, *best);
         noteSkipped(ends, *best);
         if (const std::string joints = behind(*best); !joints.empty()) {
@@ -208,6 +209,21 @@ private:
         }
     }
 
+    // Frames of a tool's name on shorter branches: the longest chain may be a hose.
+    void noteShorter(ArmEnds& ends, const Seen& best) const {
+        std::vector<std::string> names;
+        for (const Seen& s : seen_) {
+            const bool shorter = s.moving > 0 && s.moving < best.moving;
+            if (usable(s) && shorter && namesTool(s.link->name) && !isAbove(*s.link, best.link)) {
+                names.push_back(s.link->name);
+            }
+        }
+        if (!names.empty() && best.rank == kNoTool) {
+            ends.notes.push_back("tip " + best.link->name + " has more joints than " + firstOf(names) +
+                                 " on other branches; arm.tip selects another");
+        }
+    }
+
     // Other ends with as many joints, on other branches: of each the tip that it would have as the arm.
     void noteOthers(ArmEnds& ends, const Seen& best) const {
         std::vector<const Seen*> others;
@@ -255,20 +271,6 @@ private:
     bool any_ = false; // a link outside of grippers moves
     int most_ = 0;     // joints of the longest chain
 };
-
-// The base below the last planar or floating joint on the way to the tip, if a joint is left below it.
-void lowerBase(const urdf::ModelInterface& model, ArmEnds& ends) {
-    bool any = false;
-    for (LinkPtr link = ends.tip; link && link != ends.base; link = link->getParent()) {
-        if (link->parent_joint && !isFree(*link->parent_joint)) {
-            any = any || moves(*link->parent_joint);
-        } else if (link->parent_joint && any) {
-            ends.base = model.getLink(link->name);
-            ends.baseWhy = "below the planar or floating joint " + link->parent_joint->name;
-            return;
-        }
-    }
-}
 
 } // namespace
 

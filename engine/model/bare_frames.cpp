@@ -90,4 +90,25 @@ bool standsApart(const urdf::Link& base) {
     return false;
 }
 
+bool isAbove(const urdf::Link& link, std::shared_ptr<const urdf::Link> below) {
+    while (below && below.get() != &link) {
+        below = below->getParent();
+    }
+    return below != nullptr;
+}
+
+void lowerBase(const urdf::ModelInterface& model, ArmEnds& ends) {
+    bool any = false;
+    for (std::shared_ptr<const urdf::Link> link = ends.tip; link && link != ends.base;
+         link = link->getParent()) {
+        if (link->parent_joint && !isFree(*link->parent_joint)) {
+            any = any || moves(*link->parent_joint);
+        } else if (link->parent_joint && any) {
+            ends.base = model.getLink(link->name);
+            ends.baseWhy = "below the planar or floating joint " + link->parent_joint->name;
+            return;
+        }
+    }
+}
+
 } // namespace fathom

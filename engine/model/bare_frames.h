@@ -2,6 +2,8 @@
 // Frames at the ends of an arm: those below its tip without shapes, and a base below the root.
 #pragma once
 
+#include "engine/model/arm_ends.h"
+
 #include <memory>
 #include <string>
 #include <urdf_model/model.h>
@@ -27,5 +29,11 @@ std::vector<std::string> framesBelow(const urdf::ModelInterface& model,
 
 // Whether the link has another pose than the root, or may have.
 bool standsApart(const urdf::Link& base);
+
+// Whether the link is `below` or above it in the tree.
+bool isAbove(const urdf::Link& link, std::shared_ptr<const urdf::Link> below);
+
+// Lowers the base below the last planar or floating joint on the way to the tip, if a joint is left below it.
+void lowerBase(const urdf::ModelInterface& model, ArmEnds& ends);
 
 } // namespace fathom

@@ -190,6 +190,11 @@ size_t toolRank(const std::string& link) {
     return best;
 }
 
+bool namesTool(const std::string& link) {
+    const auto last = std::ranges::find(kToolNames, "flange");
+    return toolRank(link) <= static_cast<size_t>(last - kToolNames.begin());
+}
+
 bool namesPart(const std::string& link) {
     const std::string name = toolName(link);
     const auto first = std::ranges::find(kToolNames, "flange");

@@ -17,6 +17,9 @@ inline constexpr const char* kSiteEnding = "__site";
 // Rank of a tool frame's name, with or without a prefix such as "left_"; the best is 0. kNoTool = none.
 size_t toolRank(const std::string& link);
 
+// Whether it is a usual name of a tool's frame, from "tool0" to "flange", and not one of a hand or gripper.
+bool namesTool(const std::string& link);
+
 // Whether a tool frame's name has a prefix before one of the words that parts of an arm have too:
 // "wrist_flange", "forearm_hand", "calib_tool".
 bool namesPart(const std::string& link);

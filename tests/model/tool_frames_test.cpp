@@ -2,6 +2,7 @@
 // Names of tool frames, and the frames below a chosen tip.
 #include "tests/model/urdf_text.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -70,4 +71,22 @@ TEST_CASE("Frames without shapes below the chosen tip are named in a note") {
     }
     REQUIRE(notes(many).size() == 1);
     CHECK(notes(many)[0].ends_with("selects one: a, b, c, d, e, f and 2 more"));
+}
+
+TEST_CASE("A tool frame on a shorter branch than the longest chain is named in a note") {
+    std::string hose;
+    std::string before = "l1";
+    for (const std::string after : {"h1", "h2", "h3", "h4", "h5"}) {
+        hose += ballLink(after) + jointText("turn_" + after, "revolute", before, after, "0 0 0.05", "0 0 1");
+        before = after;
+    }
+    const ArmModel arm = loadUrdf(armOfThree() + hose + frame("l3", "tool0"));
+    CHECK(arm.tipText == "h5 (the end of the longest chain)");
+    CHECK(std::ranges::count(
+              arm.notes, "tip h5 has more joints than tool0 on other branches; arm.tip selects another") ==
+          1);
+    const ArmModel same = loadUrdf(armOfThree() + hose + frame("l1", "hand"));
+    for (const std::string& note : same.notes) {
+        CHECK(note.find("has more joints") == std::string::npos);
+    }
 }
