@@ -19,7 +19,7 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kHeader = "fathom cover 5"; // raise the number when covers or this format change
+constexpr const char* kHeader = "fathom cover 6"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
 
 std::string hex(uint64_t value) {

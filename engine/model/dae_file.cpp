@@ -35,6 +35,13 @@ double unitOf(const std::string& file, const std::string& metre) {
     return value;
 }
 
+bool turnsNothing(const std::string& skew) {
+    std::istringstream in(skew);
+    in.imbue(std::locale::classic());
+    double angle = 1.0;
+    return in >> angle && angle == 0.0;
+}
+
 bool isIdentity(const std::string& matrix) {
     std::istringstream in(matrix);
     in.imbue(std::locale::classic()); // not the program's own
@@ -48,7 +55,7 @@ bool isIdentity(const std::string& matrix) {
     return count == 16;
 }
 
-// A node that is somewhere below itself.
+// A node that contains itself, if any.
 std::optional<size_t> inItself(const std::vector<std::vector<size_t>>& below) {
     enum class Seen : uint8_t { No, Above, Done };
     std::vector<Seen> seen(below.size(), Seen::No);
@@ -87,8 +94,13 @@ public:
         while (!open_.empty() && open_.back().around >= around) { // has ended: this tag is behind it
             open_.pop_back();
         }
-        if (name == "geometry" || name == "controller") {
-            meshes_.insert(id);
+        if (name == "geometry") {
+            geometries_.insert(id);
+        } else if (name == "controller") {
+            controller_ = id;
+            controllers_[id] = "";
+        } else if ((name == "skin" || name == "morph") && tags.path().ends_with("/controller")) {
+            controllers_[controller_] = xmlAttribute(tags.tag().text, "source");
         } else if (name == "node") {
             addNode(id, xmlAttribute(tags.tag().text, "name"), around);
         } else if (!open_.empty() && around == open_.back().around + kInNode && // not in <extra>
@@ -100,18 +112,10 @@ public:
 
     void check(const std::string& file) {
         for (const Instance& instance : instances_) {
-            const std::string id = instance.url.starts_with('#') ? instance.url.substr(1) : "";
-            const bool node = instance.element == "instance_node";
-            const auto found = nodes_.find(id);
-            const bool known = node ? found != nodes_.end() || names_.contains(id) : meshes_.contains(id);
-            if (id.empty() || !known) {
-                throw BadInput(file, "<" + instance.element + ">",
-                               "url=\"" + excerpt(printable(instance.url)) + "\"",
-                               std::string("#id of a <") + (node ? "node" : "geometry> or <controller") +
-                                   "> of this file");
-            }
-            if (node && found != nodes_.end()) {
-                below_[instance.node].push_back(found->second);
+            if (instance.element == "instance_node") {
+                below_[instance.node].push_back(nodeOf(file, instance));
+            } else {
+                checkMesh(file, instance);
             }
         }
         if (const std::optional<size_t> node = inItself(below_)) {
@@ -129,6 +133,37 @@ private:
     struct OpenNode {
         size_t node, around; // around: length of the path of the elements around it
     };
+    static std::string idOf(const std::string& url) { return url.starts_with('#') ? url.substr(1) : ""; }
+
+    [[noreturn]] static void refuse(const std::string& file, const Instance& instance, const char* allowed) {
+        throw BadInput(file, "<" + instance.element + ">", "url=\"" + excerpt(printable(instance.url)) + "\"",
+                       std::string("#id of a ") + allowed + " of this file");
+    }
+
+    // The library takes a name where no id fits.
+    size_t nodeOf(const std::string& file, const Instance& instance) const {
+        const std::string id = idOf(instance.url);
+        const std::map<std::string, size_t>& nodes = nodes_.contains(id) ? nodes_ : names_;
+        const auto found = nodes.find(id);
+        if (id.empty() || found == nodes.end()) {
+            refuse(file, instance, "<node>");
+        }
+        return found->second;
+    }
+
+    void checkMesh(const std::string& file, const Instance& instance) const {
+        const std::string id = idOf(instance.url);
+        const auto controller = controllers_.find(id);
+        if (id.empty() || (controller == controllers_.end() && !geometries_.contains(id))) {
+            refuse(file, instance, "<geometry> or <controller>");
+        }
+        if (!geometries_.contains(id) && !geometries_.contains(idOf(controller->second))) {
+            throw BadInput(file, "<controller id=\"" + excerpt(printable(id)) + "\">",
+                           "source=\"" + excerpt(printable(controller->second)) + "\"",
+                           "#id of a <geometry> of this file");
+        }
+    }
+
     static constexpr size_t kInNode = std::string_view("/node").size(); // longer is the path inside
 
     void addNode(const std::string& id, const std::string& name, size_t around) {
@@ -142,15 +177,19 @@ private:
         if (!id.empty()) {
             nodes_.emplace(id, node);
         }
-        names_.insert(name); // the library takes a name, too
+        if (!name.empty()) {
+            names_.emplace(name, node);
+        }
     }
 
     std::vector<std::string> ids_;           // of nodes
     std::vector<std::vector<size_t>> below_; // children of nodes
     std::vector<OpenNode> open_;
     std::vector<Instance> instances_;
-    std::map<std::string, size_t> nodes_; // by id
-    std::set<std::string> meshes_, names_;
+    std::map<std::string, size_t> nodes_, names_;    // by id, by name
+    std::set<std::string> geometries_;               // ids
+    std::map<std::string, std::string> controllers_; // id -> source
+    std::string controller_;                         // the last one
 };
 
 } // namespace
@@ -169,7 +208,7 @@ DaeFacts checkDae(const std::filesystem::path& file) {
             facts.up = tags.content();
         } else if (name == "trifans") {
             throw BadInput(file.string(), "mesh", "<trifans>", "triangles, polylist, polygons or tristrips");
-        } else if (name == "skew") {
+        } else if (name == "skew" && tags.path().ends_with("/node") && !turnsNothing(tags.content())) {
             throw BadInput(file.string(), "node", "<skew>", "matrix, translate, rotate, scale or lookat");
         } else if (const std::string matrix = name == "bind_shape_matrix" ? tags.content() : "";
                    !matrix.empty() && !isIdentity(matrix)) {

@@ -14,9 +14,9 @@ struct DaeFacts {
     bool skin = false;  // it has a skin; how its joints stand is not applied
 };
 
-// Throws BadInput for what the library would read without a word as another shape, or could not end reading:
-// units that are no size, fans of triangles (it loses their middle), skins whose geometry is moved first,
-// skewed nodes, instances of missing elements, and nodes that instance themselves.
+// Throws BadInput for what the library would silently read as another shape, or would read without end: units
+// that are no size, fans of triangles (it loses their middle), skins whose geometry is moved first, skewed
+// nodes, instances of missing elements, and nodes that instance themselves.
 DaeFacts checkDae(const std::filesystem::path& file);
 
 } // namespace fathom

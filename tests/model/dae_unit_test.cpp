@@ -115,6 +115,10 @@ TEST_CASE("A .dae with an instance of a missing element is rejected with element
     const ScratchFile twice =
         nodesIn(own + "<node><translate>0 0 0.05</translate><instance_node url='#part'/></node>", library);
     CHECK(loadMesh(twice.path()).mesh.triangles.size() == 2);
+    CHECK(nodesRefusal(own + "<node><instance_controller url='#c'/></node>",
+                       "<library_controllers><controller id='c'><skin source='#gone'/></controller>"
+                       "</library_controllers>") ==
+          ": <controller id=\"c\">: source=\"#gone\" (allowed: #id of a <geometry> of this file)");
     const ScratchFile extra = nodesIn(
         "<node><instance_geometry url='#g'/><extra><technique profile='x'><instance_geometry url='#other'/>"
         "</technique></extra></node>");
@@ -129,8 +133,13 @@ TEST_CASE("A .dae with a node inside of itself or a skewed node is rejected befo
                        "<library_nodes><node id='a'><instance_node url='#b'/></node>"
                        "<node id='b'><instance_node url='#a'/></node></library_nodes>")
               .ends_with(" is inside of itself (allowed: nodes without a loop)"));
+    CHECK(nodesRefusal("<node name='m'><instance_geometry url='#g'/><instance_node url='#m'/></node>")
+              .ends_with(" is inside of itself (allowed: nodes without a loop)"));
     CHECK(nodesRefusal("<node><skew>45 1 0 0 0 1 0</skew><instance_geometry url='#g'/></node>") ==
           ": node: <skew> (allowed: matrix, translate, rotate, scale or lookat)");
+    const ScratchFile upright =
+        nodesIn("<node><instance_geometry url='#g'/><extra><skew>45</skew></extra></node>");
+    CHECK(loadMesh(upright.path()).mesh.triangles.size() == 1);
 }
 
 TEST_CASE("Notes on a .dae name a unit beside --scale, an up axis that is not applied, and a skin") {
