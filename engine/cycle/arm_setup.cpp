@@ -192,14 +192,14 @@ private:
         model.follow(armSetup_->start);
     }
 
-    // Limits of mimic joints are divided by their multipliers, and so rounded.
+    // Limits are printed with six digits. What is printed is accepted: narrow() moves it to the exact limit.
     void refuseNarrowed() const {
-        constexpr double kRounded = 1e-9;
+        const auto rounded = [](double limit) { return 1e-5 * std::max(1.0, std::abs(limit)); };
         for (size_t i = 0; i < arm_.joints.size(); ++i) {
             const std::string field = "joints[" + std::to_string(i) + "]";
             const ArmJoint& joint = armSetup_->model.joints[indexOf(field, arm_.joints[i].name)];
             const double start = arm_.joints[i].start.value_or(joint.lower);
-            if (start < joint.lower - kRounded || start > joint.upper + kRounded) {
+            if (start < joint.lower - rounded(joint.lower) || start > joint.upper + rounded(joint.upper)) {
                 refuse(field + ".start", text(start),
                        text(joint.lower) + " to " + text(joint.upper) + ", the limits of " +
                            joint.limitsFrom);

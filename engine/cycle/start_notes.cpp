@@ -14,13 +14,13 @@ namespace {
 // [m] A run may start in contact, a little inside. At usual stiffness a hand does not feel less than this.
 constexpr double kFeltDepth = 1e-4;
 
-// A sphere that shapes hold at the start.
+// A sphere that shapes constrain at the start.
 struct StartSphere {
     size_t part = 0; // index of its name
     Sphere sphere;   // base frame
 };
 
-// The spheres that shapes hold, and the names of the links that carry them.
+// The spheres that shapes constrain, and the names of the links that carry them.
 struct StartSpheres {
     std::vector<StartSphere> spheres;
     std::vector<std::string> parts;
@@ -50,7 +50,8 @@ StartSpheres spheresOfTool(const Tool& tool, const Pose& baseTtool) {
 }
 
 std::string startNote(const std::string& fixture, bool keepIn, const std::string& part, double depth) {
-    return "fixture '" + fixture + "': " + part + " starts " + printed("%.3g mm ", 1e3 * depth) +
+    return "fixture '" + fixture + "': " + part + " starts " +
+           printed(depth < 0.1 ? "%.3g mm " : "%.0f mm ", 1e3 * depth) +
            (keepIn ? "outside of it and is moved in" : "inside of it and is moved out") +
            "; the hand feels up to the force limit";
 }
