@@ -49,8 +49,10 @@ ByteOrder orderOfUnits(std::span<const uint16_t> values, size_t width) {
     if (low.count() >= kFewestLevels && steps.stated * kSmoother <= steps.swapped) {
         return ByteOrder::AsStated;
     }
-    return high.count() >= kFewestLevels && steps.swapped * kSmoother <= steps.stated ? ByteOrder::Swapped
-                                                                                      : ByteOrder::Unknown;
+    // Right images of 8 or 9 bits that were moved up are smoother in the wrong order, too.
+    const bool movedUp = low.count() == 1 && (low[0x80] || low[0xff]);
+    const bool smoother = high.count() >= kFewestLevels && steps.swapped * kSmoother <= steps.stated;
+    return smoother && !movedUp ? ByteOrder::Swapped : ByteOrder::Unknown;
 }
 
 void OrderOfReals::Count::add(double value) {

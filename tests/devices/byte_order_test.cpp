@@ -104,15 +104,18 @@ TEST_CASE("The byte order of depth is judged wrong only if the other order is fa
     CHECK(orderOfUnits(swappedUnits({wall.begin() + 400, wall.begin() + 600}), kOrderWidth) ==
           ByteOrder::Unknown); // few
     std::mt19937 random(2);
-    std::vector<uint16_t> noise, eightBits, levels;
+    std::vector<uint16_t> noise, eightBits, nineBits, levels;
     for (const uint16_t value : wall) {
         noise.push_back(static_cast<uint16_t>(random()));
         eightBits.push_back(static_cast<uint16_t>((value & 0xffu) << 8u));
+        nineBits.push_back(static_cast<uint16_t>((value & 0x1ffu) << 7u));
         levels.push_back(random() % 2 == 0 ? 1000 : 1256); // 0x03e8, 0x04e8: neighbours if swapped
     }
     CHECK(orderOfUnits(std::vector<uint16_t>(kOrderPixels, 0x2003), kOrderWidth) == ByteOrder::Unknown);
-    for (const auto& values : {noise, eightBits, levels}) {
+    for (const auto& values : {noise, eightBits, nineBits, levels}) {
         CHECK(orderOfUnits(values, kOrderWidth) != ByteOrder::Swapped);
+    }
+    for (const auto& values : {noise, eightBits, levels}) {
         CHECK(orderOfUnits(swappedUnits(values), kOrderWidth) != ByteOrder::Swapped);
     }
 }
