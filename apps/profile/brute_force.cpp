@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/brute_force.h"
 
-#include "engine/contact/cull_cpu.h"
+#include "engine/contact/clones.h"
+#include "engine/contact/sphere_span.h"
 
 #include <algorithm>
 
@@ -10,6 +11,15 @@ namespace fathom::profile {
 namespace {
 
 constexpr size_t kBlock = 4096; // spheres that fit the first-level cache while all leaves are tested
+
+FATHOM_CLONES
+void markBlock(SphereSpan block, glm::vec3 leaf, float limit, uint8_t* __restrict marks) noexcept {
+    for (size_t k = 0; k < block.count; ++k) {
+        const float dx = leaf.x - block.x[k], dy = leaf.y - block.y[k], dz = leaf.z - block.z[k];
+        const float far = limit + block.radius[k];
+        marks[k] |= static_cast<uint8_t>(dx * dx + dy * dy + dz * dz <= far * far ? 1 : 0);
+    }
+}
 
 } // namespace
 
@@ -20,7 +30,7 @@ void bruteForceCull(const PosedLeaves& leaves, float reach, const RegionSpheres&
         const SphereSpan block =
             part({s.x.data(), s.y.data(), s.z.data(), s.radius.data(), s.size()}, begin, kBlock);
         for (size_t i = 0; i < leaves.x.size(); ++i) {
-            markWithin(block, leaves.centre(i), reach + leaves.radius[i], marks.data() + begin);
+            markBlock(block, leaves.centre(i), reach + leaves.radius[i], marks.data() + begin);
         }
     }
     found.clear();

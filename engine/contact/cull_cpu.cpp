@@ -2,6 +2,7 @@
 #include "engine/contact/cull_cpu.h"
 
 #include "engine/contact/clones.h"
+#include "engine/contact/sphere_span.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,6 +14,7 @@ namespace {
 constexpr uint32_t kBlock = 32; // slots per kernel step (marks are bytes)
 constexpr uint32_t kFew = 5;    // up to this many slots a scalar loop is faster
 
+// limit [m]: reach plus the leaf's radius.
 FATHOM_CLONES
 void markKernel(SphereSpan run, glm::vec3 leaf, float limit, uint8_t* __restrict marks) noexcept {
     for (size_t k = 0; k < run.count; ++k) {
@@ -31,10 +33,6 @@ uint32_t wholeSteps(uint32_t begin, uint32_t end, uint32_t slots) noexcept {
 
 } // namespace
 
-void markWithin(const SphereSpan& run, const glm::vec3& leaf, float limit, uint8_t* marks) noexcept {
-    markKernel(run, leaf, limit, marks);
-}
-
 void CullCpu::markByLeaf(const PosedLeaves& leaves, float reach, const RegionGrid& grid) {
     const auto slots = static_cast<uint32_t>(grid.size());
     for (size_t i = 0; i < leaves.x.size(); ++i) {
@@ -43,7 +41,7 @@ void CullCpu::markByLeaf(const PosedLeaves& leaves, float reach, const RegionGri
         const double far = (static_cast<double>(limit) + grid.maxRadius()) * (1.0 + 1e-5) + 1e-9;
         const glm::vec3 centre = leaves.centre(i);
         grid.forEachRun(dvec3(centre), far, [&](uint32_t begin, uint32_t end) {
-            markWithin(grid.run(begin, wholeSteps(begin, end, slots)), centre, limit, marks_.data() + begin);
+            markKernel(grid.run(begin, wholeSteps(begin, end, slots)), centre, limit, marks_.data() + begin);
         });
     }
 }

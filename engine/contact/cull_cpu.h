@@ -13,10 +13,6 @@
 
 namespace fathom {
 
-// Marks (|=) each sphere of the run with |leaf - centre|^2 <= (limit + R)^2, in float32. limit [m]: reach
-// plus the leaf's radius. marks: run.count.
-void markWithin(const SphereSpan& run, const glm::vec3& leaf, float limit, uint8_t* marks) noexcept;
-
 // One thread, contact cadence: allocates.
 class CullCpu {
 public:

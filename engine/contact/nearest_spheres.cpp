@@ -2,6 +2,7 @@
 #include "engine/contact/nearest_spheres.h"
 
 #include "engine/contact/clones.h"
+#include "engine/contact/sphere_span.h"
 
 #include <algorithm>
 #include <array>

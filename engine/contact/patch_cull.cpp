@@ -2,6 +2,7 @@
 #include "engine/contact/patch_cull.h"
 
 #include "engine/contact/clones.h"
+#include "engine/contact/sphere_span.h"
 
 #include <algorithm>
 #include <cstring>
