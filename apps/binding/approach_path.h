@@ -25,7 +25,7 @@ std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, con
                                        const RegionGrid& grid);
 
 // Smallest gap [m] between the tool's leaves at a pose and the regions, at most `cap`. fixture >= 0: only
-// spheres of that row of Scene::fixtures.
+// spheres of that index into Scene::fixtures.
 double leastGap(const Tool& tool, const HostFixtures& set, const RegionGrid& grid, const Pose& baseTtool,
                 double cap, int fixture = -1);
 

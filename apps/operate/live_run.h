@@ -43,7 +43,7 @@ public:
     HandDeviceFacts device() const;
     void forcesOff() { hand_->setForces(false); }
     void setShapes(const std::vector<Shape>& shapes);
-    // Logs which shapes of the scene push the tool from where the run started. After start() and restart().
+    // Warns of shapes of the scene that push the tool or arm at the start. After start() and restart().
     void warnOfStart(const Scene& scene) const;
 
     bool ended() const { return thread_->ended(); }

@@ -15,7 +15,7 @@ namespace fathom::operate {
 struct Nearest {
     dvec3 from{0.0}, to{0.0}; // on the surfaces of tool and region
     double gap = 0.0;         // negative: they overlap
-    uint32_t fixture = 0;     // row of Scene::fixtures
+    uint32_t fixture = 0;     // index into Scene::fixtures
 };
 
 // tool: spheres in the base frame. Empty without regions or without a tool. Exact, and fast while most

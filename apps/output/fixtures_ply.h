@@ -17,8 +17,8 @@ inline constexpr std::string_view kFixturesPlyStart =
 std::filesystem::path fixturesFileName(int64_t frame);
 
 // One vertex per region sphere, in the order of the set: double x y z (base frame [m], float position plus
-// origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1 = not observed in
-// this frame). Always little-endian. Throws Error that names the file.
+// origin in float64), double radius [m], int class (index into Scene::fixtures), int held (1 = not observed
+// in this frame). Always little-endian. Throws Error that names the file.
 void writeFixturesPly(const std::filesystem::path& file, const HostFixtures& set);
 
 } // namespace fathom

@@ -22,7 +22,7 @@ struct OverlayInput {
     std::span<const uint32_t> colour;
     std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: uniform background
     const HostFixtures* set = nullptr;   // regions and guidance; null or frame -1: none
-    std::vector<std::string> classNames; // rows of Scene::fixtures
+    std::vector<std::string> classNames; // of Scene::fixtures, in order
     std::span<const Sphere> leaves;      // tool frame [m]
     StepRecord tick;                     // the last one: proxy, hand, wrench, state, guidance
     std::string title;                   // scene and source

@@ -11,9 +11,9 @@ class ThreadPool;
 
 namespace fathom::cloud {
 
-// From what the spheres of a frame are collected.
+// Sources of a frame's spheres.
 struct SphereSource {
-    const WorkBuffers& work; // radii and points, when the plan does not pack
+    const WorkBuffers& work; // classes; radii and points when the plan does not pack
     const SeenPoints* seen;  // points of this frame when the plan packs depths, else null
     const Plan& plan;
     const PatchLayout& layout;

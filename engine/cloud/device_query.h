@@ -12,7 +12,7 @@
 
 namespace fathom::cloud {
 
-// What a query works on. Referenced objects must outlive it.
+// What a query works on. Referenced objects must outlive its users.
 struct QueryContext {
     gpu::Device* device; // null only where the plan's queries are the CPU's
     const Plan& plan;

@@ -38,7 +38,7 @@ private:
     static FrozenClass take(const HostFixtures& set, uint32_t row);
     void join();
 
-    std::map<uint32_t, FrozenClass> classes_;      // by row of Scene::fixtures
+    std::map<uint32_t, FrozenClass> classes_;      // by index into Scene::fixtures
     std::shared_ptr<const RegionSpheres> spheres_; // all of them, by row
     uint64_t version_ = 0;
     dvec3 origin_{0.0};

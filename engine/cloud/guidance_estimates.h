@@ -48,7 +48,7 @@ private:
     };
     static void settle(Settled& settled, GuidancePose& pose, double standoff, const dvec3& camera);
 
-    std::map<uint32_t, Settled> classes_; // by row of Scene::fixtures
+    std::map<uint32_t, Settled> classes_; // by index into Scene::fixtures
     double last_ = 0.0;                   // [s] capture time of the last set
 };
 

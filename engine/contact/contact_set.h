@@ -34,7 +34,7 @@ struct ContactSet {
 
     std::vector<double> x, y, z, radius; // spheres, about the origin [m]
     std::vector<uint32_t> source;        // RegionSpheres::source
-    std::vector<uint8_t> fixture;        // row of Scene::fixtures
+    std::vector<uint8_t> fixture;        // index into Scene::fixtures
     std::vector<uint32_t> pairBegin;     // leafCount + 1
     std::vector<uint32_t> pairSphere;    // by band within a leaf, by source within a band
     std::vector<uint32_t> pairBandEnd;   // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end

@@ -17,7 +17,7 @@ struct RegionSpheres {
     std::vector<float> x, y, z;   // [m] base axes, about the origin
     std::vector<float> radius;    // [m]
     std::vector<uint32_t> source; // pixel v * width + u; held: pixels + that; frozen: 2 pixels + that
-    std::vector<uint8_t> fixture; // row of Scene::fixtures
+    std::vector<uint8_t> fixture; // index into Scene::fixtures
 
     size_t size() const { return x.size(); }
     void resize(size_t n) {
@@ -58,7 +58,7 @@ struct RegionSpheres {
 // Result of one guidance class in one frame. Count and position are of this frame alone. GuidanceEstimates
 // settles plane and target over frames.
 struct GuidancePose {
-    uint32_t fixture = 0; // row of Scene::fixtures
+    uint32_t fixture = 0; // index into Scene::fixtures
     uint32_t count = 0;   // points in the mean
     bool present = false; // min_count points before trim
     dvec3 position{0.0};  // [m] base frame: mean of the points

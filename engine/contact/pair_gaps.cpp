@@ -21,7 +21,7 @@ constexpr size_t kGapLanes = 8; // lanes of the widest register
 using GapLanes = double __attribute__((vector_size(8 * kGapLanes)));
 constexpr size_t kGapBlock = 256; // gaps per step of a search
 
-// Leaves and vectors, too, are passed by value, so that writing gaps does not change them.
+// Spans, leaves and vectors are passed by value, so that no store to gaps can change them.
 FATHOM_CLONES
 int64_t gapsKernel(SphereSpan run, Sphere leaf, double limit, double* __restrict gaps) noexcept {
     int64_t below = 0;

@@ -19,7 +19,7 @@ struct Shape {
     bool keepIn = false;
     dvec3 size{0.0}; // [m]
     Pose baseTshape;
-    uint32_t fixture = 0; // row of Scene::fixtures
+    uint32_t fixture = 0; // index into Scene::fixtures
 
     bool isRound() const { return kind == ShapeKind::Sphere || kind == ShapeKind::Cylinder; }
     bool isEquality() const { return kind == ShapeKind::Line || kind == ShapeKind::Axis; }

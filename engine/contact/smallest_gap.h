@@ -22,7 +22,7 @@ struct SmallestGap {
                                                           // the pose is not finite
     uint32_t source = kNone;                              // RegionSpheres::source
     uint32_t leaf = kNone;                                // index in the tool
-    uint32_t fixture = kNone;                             // row of Scene::fixtures
+    uint32_t fixture = kNone;                             // index into Scene::fixtures
 
     glm::vec4 sphere{0.0f}; // [m] the region sphere: centre about the set's origin, and radius
 

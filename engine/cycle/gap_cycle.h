@@ -13,7 +13,7 @@ namespace fathom {
 class GapCycle {
 public:
     // From the next batch on: use() works on the device, dropDevice() on the CPU. The pipeline is compiled
-    // with the first batch. Referenced objects must outlive this or the next dropDevice().
+    // with the first batch. What the context refers to must last until the next use() or dropDevice().
     void use(const cloud::QueryContext& context);
     void dropDevice();
 

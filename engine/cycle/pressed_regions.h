@@ -62,7 +62,7 @@ private:
     double followed_;          // [m] that a tool can follow in a tick
     bool rows_ = false;        // with a force that can be felt, or the length that holds with soft springs
     dvec3 spring_{0.0};        // [m] from the hand's end of the spring to where the rows held the tool
-    std::bitset<64> fixtures_; // rows of Scene::fixtures whose points pressed, modulo 64
+    std::bitset<64> fixtures_; // indices into Scene::fixtures whose points pressed, modulo 64
 };
 
 } // namespace fathom

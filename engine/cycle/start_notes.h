@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Placed shapes that a tool or an arm is on the wrong side of where a run starts. They move it, and push a
-// hand at rest.
+// Warnings about placed shapes that push the tool or arm at the start of a run, and so a hand at rest.
 #pragma once
 
 #include "engine/cycle/arm_setup.h"

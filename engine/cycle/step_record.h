@@ -89,7 +89,7 @@ struct Touch {
     double multiplier = 0.0;       // of the row in the solution, > 0
     uint32_t leaf = 0;             // index in the tool
     uint32_t source = 0;           // sphere: RegionSpheres::source; else the shape's index
-    uint32_t fixture = kNoFixture; // row of Scene::fixtures
+    uint32_t fixture = kNoFixture; // index into Scene::fixtures
 };
 inline constexpr size_t kMaxTouches = 8;
 

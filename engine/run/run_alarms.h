@@ -29,7 +29,8 @@ private:
     bool warned_ = false;     // of the present spell
 };
 
-// Logs when forces begin and end to fade because the scene is old, and counts such ticks.
+// Warns when forces begin to fade because the scene is old, and when frames are fresh again. Counts old
+// ticks.
 class AgeAlarm {
 public:
     // warns: false = only count.
@@ -45,7 +46,7 @@ private:
     uint64_t staleTicks_ = 0;
 };
 
-// Logs when numbers begin to be not finite, from the hand or elsewhere; such ticks have no force.
+// Warns when ticks begin to have numbers that are not finite; such ticks have no force.
 class NumberAlarm {
 public:
     void see(const TickRow& row);

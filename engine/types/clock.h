@@ -16,7 +16,7 @@ inline double secondsOf(Clock::time_point time) noexcept {
 inline double monotonicSeconds() noexcept {
     return secondsOf(Clock::now());
 }
-// [ns] since then.
+// [ns] since the machine started.
 inline int64_t nanosecondsOf(Clock::time_point time) noexcept {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
