@@ -8,7 +8,8 @@
 // The proxy may always stay where it was, so S <= S_before - w . dx + K/2 |dx|^2 and G <= (K/2 - b/T) |dx|^2:
 // a static fixture generates nothing when K <= 2 b / T, for any region and hand path, and for rotations (the
 // Hessian of |log q|^2 / 2 is at most 1). A surface that jumps by delta at penetration p adds
-// K p delta + K delta^2 / 2 to S in the same tick. Fades: docs/architecture/tick.md#how-is-energy-controlled
+// K p delta + K delta^2 / 2 to S in the same tick. Fades: docs/architecture/tick.md,
+// "How is energy controlled?"
 #pragma once
 
 #include "engine/haptics/coupling.h"

@@ -29,7 +29,7 @@ struct ReactionInput {
 // compression has another cause (a row, new data, the end of a lag) and is at most kMaxRiseRate. What new
 // data causes is spread over the time between frames, and a part of it is felt later (SurfaceNoise). Times
 // are measured ones, so that late ticks delay nothing; a rise counts ticks. All rules:
-// docs/architecture/tick.md#where-does-the-force-come-from
+// docs/architecture/tick.md, "Where does the force come from?"
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.

@@ -24,7 +24,7 @@ struct SurfaceNoiseInput {
 // A change that stays is released with kSettle: then the mean over kWatch of the withheld force is near its
 // size, while noise keeps it near zero. The rest is released with a time constant that grows while the hand
 // rests on the surface, up to kMaxSlowTime. What is withheld across the reaction also ends within some
-// millimetres of travel (docs/architecture/tick.md#where-does-the-force-come-from).
+// millimetres of travel (docs/architecture/tick.md, "Where does the force come from?").
 class SurfaceNoise {
 public:
     static constexpr double kBand = 0.002;      // [m] of motion of the surface
