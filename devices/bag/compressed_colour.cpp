@@ -28,7 +28,7 @@ std::string redAndBlueWarning(const std::string& format) {
     switch (redAndBlue(format)) {
     case RedAndBlue::Swapped:
         return "the format '" + format +
-               "' says that red and blue are stored swapped: they are read as compressed_image_transport "
+               "' states that red and blue are stored swapped: they are read as compressed_image_transport "
                "does";
     case RedAndBlue::Doubtful:
         return "the format '" + format +

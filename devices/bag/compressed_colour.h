@@ -16,7 +16,7 @@ namespace fathom {
 // has them swapped.
 enum class RedAndBlue { AsUsual, Swapped, Doubtful };
 RedAndBlue redAndBlue(const std::string& format);
-// What to warn of where they are not as usual; else empty.
+// The warning for another order than usual; else empty.
 std::string redAndBlueWarning(const std::string& format);
 
 // encoding: of the image before it was compressed ("bayer_rggb8"); empty or unknown = not stated. format: the

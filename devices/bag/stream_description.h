@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says which streams of a file were chosen, what may be wrong with them, and what is not played.
+// Describes the chosen streams of a file, what may be wrong with them, and what is not played.
 #pragma once
 
 #include "devices/bag/stream_choice.h"
@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Sentences about the streams of one file, for StreamChoice. One thread.
+// Summary and warnings of StreamChoice, for the streams of one file. One thread.
 class StreamDescription {
 public:
     // streams: all of the file. The arguments must outlive it.

@@ -7,11 +7,11 @@
 
 namespace fathom {
 
-// What a file states beside its shape.
+// What a file states besides its shape.
 struct DaeFacts {
     double metre = 1.0; // [m] of its unit
     std::string up;     // <up_axis>, such as "Y_UP"; empty = none
-    bool skin = false;  // it has a skin; how its joints stand is not applied
+    bool skin = false;  // it has a skin; poses of its joints are not applied
 };
 
 // Throws BadInput for what the library would silently read as another shape, or would read without end: units
