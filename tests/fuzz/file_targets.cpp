@@ -155,11 +155,11 @@ void readMessageImage(Bytes input) {
                                     "bayer_gbrg16",
                                     "mono8",
                                     "jpeg; rgb8",
-                                    "bayer_rggb8; jpeg compressed ",
-                                    "rgb8; jpeg compressed rgb8",
                                     "16UC1; compressedDepth png",
                                     "16UC1; compressedDepth rvl",
-                                    "32FC1; compressedDepth rvl"};
+                                    "32FC1; compressedDepth rvl",
+                                    "bayer_rggb8; jpeg compressed ",
+                                    "rgb8; jpeg compressed rgb8"};
     if (input.size() < 3) {
         throw Error("too short");
     }
